@@ -1,0 +1,12 @@
+// What every part of the firmware may use: errors, the one-writer one-reader ring, decimal numbers.
+// The face of firmware/base. Context of each part is said in its own header.
+#ifndef BASE_H
+#define BASE_H
+
+#include "base/err.h"
+#include "base/num.h"
+#include "base/ring.h"
+
+#define COUNT_OF_ARRAY(array) (sizeof(array) / sizeof((array)[0]))
+
+#endif

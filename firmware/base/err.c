@@ -1,0 +1,39 @@
+// Keeps the one current error message. Context: main loop.
+#include "base/err.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char *const err_texts[ERR_COUNT] = {
+    [ERR_OK] = "",
+#define ERR(name, text) [ERR_##name] = (text),
+#include "base/err.def"
+#undef ERR
+};
+
+static char err_text_now[ERR_MESSAGE_SIZE];
+
+err_t err_raise(err_t code, const char *detail_format, ...) {
+    const char *text = err_texts[code];
+    const char *slot = strchr(text, '%');
+    if (slot == NULL) {
+        snprintf(err_text_now, sizeof err_text_now, "%s", text);
+        return code;
+    }
+
+    // Formatted apart from the message: a detail may quote the message that stands there now.
+    char detail[ERR_MESSAGE_SIZE] = "";
+    if (detail_format != NULL) {
+        va_list args;
+        va_start(args, detail_format);
+        vsnprintf(detail, sizeof detail, detail_format, args);
+        va_end(args);
+    }
+    snprintf(err_text_now, sizeof err_text_now, "%.*s%s%s", (int)(slot - text), text, detail, slot + 1);
+    return code;
+}
+
+const char *err_message(void) {
+    return err_text_now;
+}

@@ -1,0 +1,141 @@
+// The language: an MMBasic-style interpreter and its console. It knows the syntax and the general
+// statements; the words of the product (STEPPER, TMC22xx, PEEK(STEPPER ...)) are rows of a table that
+// the caller brings along. The face of firmware/basic. Context: main loop.
+#ifndef BASIC_H
+#define BASIC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/base.h"
+
+// ---- Values --------------------------------------------------------------------------------------
+
+typedef enum { BASIC_FLOAT, BASIC_INTEGER, BASIC_STRING } basic_type_t;
+
+typedef struct {
+    const char *text; // not zero-terminated; belongs to the interpreter, valid during the call
+    size_t length;
+} basic_text_t;
+
+typedef struct {
+    basic_type_t type;
+    union {
+        double number;
+        int64_t integer;
+        basic_text_t text;
+    };
+} basic_value_t;
+
+// ---- Commands ------------------------------------------------------------------------------------
+
+// How an argument is written, and which field of basic_arg_t it fills.
+typedef enum {
+    BASIC_ARG_NUMBER,  // numeric expression                                    -> number
+    BASIC_ARG_INTEGER, // numeric expression, rounded half away from zero       -> integer (and number)
+    BASIC_ARG_TEXT,    // string expression                                     -> text
+    BASIC_ARG_CHOICE,  // one of the words in `choices`: bare, or a string
+                       // expression; a number where the words are numbers      -> integer (its index), text
+    BASIC_ARG_WORD,    // a bare word, or a string expression                   -> text
+    BASIC_ARG_PIN,     // GPn, "GPn", or a number, which is a GPIO number. With
+                       // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
+    BASIC_ARG_RAW,     // the rest of the statement as typed, comment included; ends at a colon outside
+                       // quotes, parentheses and comments                      -> text
+} basic_arg_kind_t;
+
+enum {
+    BASIC_ARG_OPTIONAL = 1 << 0, // may be left out or left blank
+    BASIC_ARG_DEFAULT = 1 << 1,  // if left out, `fallback` is delivered and `given` stays false
+    BASIC_ARG_REPEAT = 1 << 2,   // this and the following arguments repeat as a group, 0 or more times
+    BASIC_ARG_ABOVE_MIN = 1 << 3 // the minimum itself is not allowed
+};
+
+// One argument of a command: parsing, range check, error text, HELP and the reference page in one row.
+typedef struct {
+    const char *name; // as in the reference, e.g. "steps_per_unit"
+    basic_arg_kind_t kind;
+    unsigned flags;
+    double min, max; // NUMBER and INTEGER; both 0: no limits
+    double fallback; // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
+    const char *unit;    // "mm", "mm/s^2"; NULL: none
+    const char *choices; // CHOICE: words with a bar between, e.g. "X|Y|Z|A"
+    const char *help;    // a short sentence without a full stop
+} basic_arg_spec_t;
+
+// One argument as delivered to a handler; the array always has a row for each row of the spec (and
+// for each repetition), with given == false where it was left out.
+typedef struct {
+    bool given;
+    double number;
+    int64_t integer;
+    basic_text_t text;
+} basic_arg_t;
+
+#define BASIC_ARGS_MAX 24
+
+// Carries the command out. Anything but ERR_OK ends the statement with err_message().
+typedef err_t (*basic_run_t)(const basic_arg_t *args, size_t count);
+
+typedef struct {
+    const char *name; // words with one blank between, in capitals: "STEPPER AXIS"
+    const basic_arg_spec_t *args;
+    size_t arg_count;
+    basic_run_t run;
+    const char *help; // one sentence for HELP and the reference page
+} basic_command_t;
+
+// Computes a function's value. `result` arrives as integer 0; a text result must stay valid until the
+// next call of the same function.
+typedef err_t (*basic_evaluate_t)(const basic_arg_t *args, size_t count, basic_value_t *result);
+
+typedef struct {
+    const char *name;    // in capitals: "PEEK"
+    const char *keyword; // a first word inside the parentheses that selects this row, followed by a
+                         // blank instead of a comma: PEEK(STEPPER X) has "STEPPER". NULL: none
+    const basic_arg_spec_t *args;
+    size_t arg_count;
+    basic_evaluate_t evaluate;
+    const char *help;
+} basic_function_t;
+
+// ---- Start ---------------------------------------------------------------------------------------
+
+typedef struct {
+    void *arena; // all memory of variables, strings and the program; nothing else is allocated
+    size_t arena_size;
+    const basic_command_t *commands; // of two rows that match the longer name wins
+    size_t command_count;
+    const basic_function_t *functions;
+    size_t function_count;
+    void (*background)(void); // called at each statement and whenever the interpreter waits; NULL: none
+    void (*on_break)(void);   // called once when the user pressed Ctrl-C; NULL: none
+    const char *banner;       // printed by basic_start(), lines end with \r\n
+} basic_config_t;
+
+// Takes the configuration (which must stay valid), clears everything and prints the banner.
+void basic_start(const basic_config_t *config);
+
+// Loads `source` as the program and runs it to its end. Prints the error if there is one.
+err_t basic_run_program(const char *source, size_t length);
+
+// One turn of the prompt: shows it, waits for a line, carries it out, prints an error if there is one.
+// Returns at once if no more input can come.
+void basic_prompt(void);
+
+// ---- For command handlers ------------------------------------------------------------------------
+
+// Prints to the console; a bare \n in the format becomes \r\n.
+void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// A line from outside the running statement (an event of the machine). It stands on a line of its
+// own: a line being typed is taken away and drawn again below.
+void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// Writes `value` as PRINT does, without the leading blank. Returns `buffer`.
+char *basic_format_number(char *buffer, size_t size, double value);
+
+// True if the user pressed Ctrl-C and the statement should end; a handler that waits must ask.
+bool basic_break_pending(void);
+
+#endif
