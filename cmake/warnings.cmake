@@ -1,0 +1,14 @@
+# Compiler flags of our own code (not of the SDK's): every warning is an error, and arithmetic is the
+# same on every target (no fused multiply-add), so that the host's step train is the board's.
+option(STEPMITE_SANITIZE "Address and undefined-behaviour sanitizers (host only)" OFF)
+
+add_library(stepmite_flags INTERFACE)
+target_compile_options(stepmite_flags INTERFACE
+    -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wmissing-prototypes -Werror
+    -ffp-contract=off
+)
+if(STEPMITE_SANITIZE)
+    set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_compile_options(stepmite_flags INTERFACE ${sanitize})
+    target_link_options(stepmite_flags INTERFACE ${sanitize})
+endif()
