@@ -1,0 +1,1 @@
+"""PC side of the StepMite motion controller."""
