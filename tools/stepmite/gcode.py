@@ -86,8 +86,8 @@ class Reader:
 
     def work_position(self) -> Position:
         """Return the position as the program counts it, mm and degrees."""
-        return tuple(p - o for p, o in zip(self.position, self.offset, strict=True))  # type:
-        ignore[return-value]
+        x, y, z, a = (p - o for p, o in zip(self.position, self.offset, strict=True))
+        return x, y, z, a
 
     def read(self, line_number: int, line: str) -> list[Block]:
         """Return the blocks that one line makes; GcodeError if it cannot be read."""
@@ -155,7 +155,7 @@ class Reader:
             if letter in axes:
                 base = self.offset[index] if self.absolute else self.position[index]
                 target[index] = base + axes[letter]
-        self.position = tuple(target)  # type: ignore[assignment]
+        self.position = (target[0], target[1], target[2], target[3])
         feed = None if self.motion == "G0" else self.feed_per_min
         return Block("move", line_number, self.position, feed)
 
@@ -178,4 +178,4 @@ def target_steps(target: Position, steps_per_unit: Position) -> tuple[int, int, 
     for value, scale in zip(target, steps_per_unit, strict=True):
         exact = value * scale
         steps.append(int(abs(exact) + 0.5) * (1 if exact >= 0 else -1))
-    return tuple(steps)  # type: ignore[return-value]
+    return steps[0], steps[1], steps[2], steps[3]

@@ -96,7 +96,8 @@ def _describe(block: Block, start: Position, machine: Machine) -> Planned:
     length = math.hypot(*delta[:3]) or abs(delta[3])
     if block.kind != "move" or length == 0:
         return Planned(block, start, 0.0, (0.0,) * 4, 0.0, 1.0)
-    direction: Position = tuple(d / length for d in delta)  # type: ignore[assignment]
+    x, y, z, a = (part / length for part in delta)
+    direction = (x, y, z, a)
     nominal = _limit(direction, machine.max_velocity)
     if block.feed_per_min is not None:
         nominal = min(nominal, block.feed_per_min / 60)
@@ -117,8 +118,8 @@ def junction_speed(before: Position, after: Position, machine: Machine) -> float
     sine = math.sqrt((1 - cosine) / 2)
     change = [b - a for a, b in zip(unit_before, unit_after, strict=True)]
     norm = math.hypot(*change)
-    unit: Position = tuple(part / norm for part in change)  # type: ignore[assignment]
-    acceleration = _limit(unit, machine.max_acceleration)
+    x, y, z, a = (part / norm for part in change)
+    acceleration = _limit((x, y, z, a), machine.max_acceleration)
     return math.sqrt(acceleration * machine.junction_deviation_mm * sine / (1 - sine))
 
 
