@@ -5,6 +5,7 @@ option(STEPMITE_SANITIZE "Address and undefined-behaviour sanitizers (host only)
 add_library(stepmite_flags INTERFACE)
 target_compile_options(stepmite_flags INTERFACE
     -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wmissing-prototypes -Werror
+    -Wno-format-truncation # messages are meant to be cut at their buffer's end
     -ffp-contract=off
 )
 if(STEPMITE_SANITIZE)

@@ -1,0 +1,44 @@
+# Unit tests with Unity. Found in UNITY_DIR (environment or cache), as Debian's package cmock brings it,
+# or fetched at a pinned tag.
+set(UNITY_TAG v2.5.2)
+
+if(NOT UNITY_DIR AND DEFINED ENV{UNITY_DIR})
+    set(UNITY_DIR $ENV{UNITY_DIR})
+endif()
+if(NOT UNITY_DIR AND EXISTS /usr/share/cmock/vendor/unity/src/unity.c)
+    set(UNITY_DIR /usr/share/cmock/vendor/unity)
+endif()
+if(NOT UNITY_DIR)
+    include(FetchContent)
+    FetchContent_Declare(unity
+        GIT_REPOSITORY https://github.com/ThrowTheSwitch/Unity.git GIT_TAG ${UNITY_TAG}
+    )
+    FetchContent_GetProperties(unity)
+    if(NOT unity_POPULATED)
+        FetchContent_Populate(unity)
+    endif()
+    set(UNITY_DIR ${unity_SOURCE_DIR})
+endif()
+set(UNITY_DIR ${UNITY_DIR} CACHE PATH "Unity, with src/unity.c")
+
+add_library(unity STATIC ${UNITY_DIR}/src/unity.c)
+target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR}/src)
+target_compile_definitions(unity PUBLIC UNITY_SUPPORT_64 UNITY_INCLUDE_DOUBLE)
+
+# unit_test(SOURCE PART... [SOURCES extra.c ...]): registers tests/unit/SOURCE.c as the ctest SOURCE, linked
+# with the objects of these parts and with the extra sources. The test's own main() runs its cases.
+#   unit_test(base/test_num base)
+function(unit_test source)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES")
+    string(REPLACE "/" "_" target unit_${source})
+    add_executable(${target} ${source}.c ${arg_SOURCES})
+    target_include_directories(${target} PRIVATE
+        ${CMAKE_SOURCE_DIR}
+        ${CMAKE_SOURCE_DIR}/firmware
+        ${CMAKE_SOURCE_DIR}/firmware/port/${STEPMITE_PLATFORM}
+    )
+    stepmite_link_parts(${target} ${arg_UNPARSED_ARGUMENTS})
+    target_link_libraries(${target} PRIVATE stepmite_flags unity m)
+    add_test(NAME ${source} COMMAND ${target})
+    set_tests_properties(${source} PROPERTIES TIMEOUT 60)
+endfunction()
