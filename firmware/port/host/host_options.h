@@ -1,0 +1,19 @@
+// The command line of the host program. Context: main.
+#ifndef HOST_OPTIONS_H
+#define HOST_OPTIONS_H
+
+#include <stdbool.h>
+
+typedef struct {
+    const char *trace_path;   // NULL: edges are not recorded
+    const char *inputs_path;  // NULL: no input events
+    const char *flash_path;   // NULL: storage is forgotten at exit
+    const char *program_path; // NULL: the prompt is on the console
+    bool realtime;            // virtual time follows wall time
+} host_options_t;
+
+// Reads the options and the program file. Leaves the program with a message if they are wrong, and after
+// --help and --version. The result stays valid.
+const host_options_t *host_options_parse(int argc, char **argv);
+
+#endif

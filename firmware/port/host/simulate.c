@@ -1,0 +1,47 @@
+// Observers of the pins and the simulated axis. Context: any.
+#include "simulate.h"
+
+static struct {
+    struct {
+        simulate_observer_t call;
+        void *state;
+    } observers[SIMULATE_OBSERVERS_MAX];
+    unsigned count;
+} simulate;
+
+bool simulate_observe(simulate_observer_t observer, void *state) {
+    if (simulate.count == SIMULATE_OBSERVERS_MAX) {
+        return false;
+    }
+    simulate.observers[simulate.count].call = observer;
+    simulate.observers[simulate.count].state = state;
+    simulate.count++;
+    return true;
+}
+
+void simulate_edges(uint64_t time_ns, uint32_t changed, uint32_t levels) {
+    for (unsigned i = 0; i < simulate.count; i++) {
+        simulate.observers[i].call(simulate.observers[i].state, time_ns, changed, levels);
+    }
+}
+
+static bool is_missed(const simulate_axis_t *axis) {
+    return axis->fault == SIMULATE_FAULT_MISS_STEPS && axis->pulses % axis->fault_every == 0;
+}
+
+static void axis_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels) {
+    simulate_axis_t *axis = state;
+    if ((changed & levels & pins_mask(axis->step_gpio)) == 0) {
+        return;
+    }
+    axis->pulses++;
+    axis->last_step_ns = time_ns;
+    bool up = ((levels & pins_mask(axis->dir_gpio)) != 0) != axis->dir_inverted;
+    if (!is_missed(axis)) {
+        axis->position_steps += up ? 1 : -1;
+    }
+}
+
+bool simulate_axis_attach(simulate_axis_t *axis) {
+    return simulate_observe(axis_edges, axis);
+}

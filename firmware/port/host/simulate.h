@@ -1,0 +1,44 @@
+// What hangs at the simulated pins: observers that are told about every edge, and one of them, an axis
+// that counts steps as a motor driver would. Context: any (called where the edge is made).
+#ifndef SIMULATE_H
+#define SIMULATE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal/hal.h"
+
+#define SIMULATE_OBSERVERS_MAX 8
+
+// `changed`: the pins with an edge; `levels`: all pins after it.
+typedef void (*simulate_observer_t)(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels);
+
+// Adds an observer, called from now on with its `state`. False if there is no room.
+bool simulate_observe(simulate_observer_t observer, void *state);
+
+// Tells all observers. For host_pads.c.
+void simulate_edges(uint64_t time_ns, uint32_t changed, uint32_t levels);
+
+typedef enum {
+    SIMULATE_FAULT_NONE,
+    SIMULATE_FAULT_MISS_STEPS, // every `fault_every`-th step pulse does not move the axis
+} simulate_fault_t;
+
+// A driver and its motor: a rising edge of `step` moves it one step, up while `dir` is high. Fill in the
+// first group, then simulate_axis_attach().
+typedef struct {
+    unsigned step_gpio;
+    unsigned dir_gpio;
+    bool dir_inverted;      // dir low counts up
+    simulate_fault_t fault; // may be changed at any time
+    uint32_t fault_every;   // pulses, at least 1
+
+    int64_t position_steps; // where the axis is
+    uint64_t pulses;        // rising edges seen, missed ones included
+    uint64_t last_step_ns;  // time of the last pulse; 0: none yet
+} simulate_axis_t;
+
+// Starts counting at the position in `axis`, which must stay valid. False if there is no room.
+bool simulate_axis_attach(simulate_axis_t *axis);
+
+#endif
