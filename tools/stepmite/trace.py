@@ -89,7 +89,10 @@ class Edges:
             if header != "time_ns,gpio,level":
                 raise TraceError(f"{path}: the header is '{header}', not 'time_ns,gpio,level'")
             text = file.read()
-        flat = np.fromstring(text.replace("\n", ","), dtype=np.int64, sep=",") if text else []
+        try:
+            flat = np.fromstring(text.replace("\n", ","), dtype=np.int64, sep=",") if text else []
+        except ValueError:
+            flat = [0]
         if len(flat) != 3 * text.count("\n"):
             raise TraceError(f"{path}: a row is not time_ns,gpio,level")
         table = np.asarray(flat, dtype=np.int64).reshape(-1, 3)
