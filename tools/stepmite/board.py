@@ -7,6 +7,7 @@ line.
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from types import TracebackType
@@ -283,6 +284,6 @@ class Board:
 
 def _reason(error: Exception) -> str:
     """Return the operating system's words without pyserial's wrapping."""
-    if isinstance(error, OSError) and error.strerror:
-        return error.strerror.split(":")[0] if ":" in error.strerror else error.strerror
+    if isinstance(error, OSError) and error.errno:
+        return os.strerror(error.errno)
     return str(error).strip() or type(error).__name__

@@ -1,8 +1,8 @@
 """Sends a G-code program to the prompt, line by line, and keeps the queue of the board filled.
 
-Several G-code lines travel in one BASIC line, `STEPPER GS "..."` with a PRINT after each but the last.
-The firmware carries the statements out one after the other and stops at the first that fails, so the
-PRINTs tell which line was refused and nothing behind it has been executed.
+Several G-code lines travel in one BASIC line, `STEPPER GS "..."` with a PRINT after each but the
+last. The firmware carries the statements out one after the other and stops at the first that fails,
+so the PRINTs tell which line was refused and nothing behind it has been executed.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ _SEPARATOR = f":?{MARK}:"
 _STATUS_POSITION_KNOWN = 1 << 7
 _STATUS_ESTOP = 1 << 6
 _POLL_S = (0.005, 0.1)
+STUCK_S = 3.0
+"""A queue that stays full for so long while nothing moves is given up."""
 
 
 class JobError(Exception):
@@ -67,7 +69,8 @@ class Progress:
 def prepare(name: str, text: Iterable[str], machine: Machine | None = None) -> Job:
     """Check the file as far as sending it needs and estimate its time.
 
-    JobError names file and line of what no prompt could take: quotes, control characters, lines too long.
+    JobError names file and line of what no prompt could take: quotes, control characters, lines too
+    long.
     """
     job = Job(name)
     reader = Reader()
@@ -172,10 +175,10 @@ class Streamer:
     def _wait_for_end(self) -> None:
         while True:
             self._check_cancel()
-            free = self._ask_for_slots()
-            if self._board.peek("ACTIVE") <= 0:
-                if free >= self._free_most or not self._start_if_idle():
-                    break
+            idle = self._board.peek("ACTIVE") <= 0
+            left = self._ask_for_slots() < self._free_most
+            if idle and not (left and self._start_if_idle()):
+                break
             time.sleep(_POLL_S[1])
         self._check_unharmed()
         self._queue.clear()
@@ -220,16 +223,17 @@ class Streamer:
         while self._credit < goal:
             self._check_cancel()
             before = self._credit
+            active = self._board.peek("ACTIVE") > 0
             self._ask_for_slots()
             if self._credit >= goal:
                 return
-            if self._credit > before or self._board.peek("ACTIVE") > 0:
+            if self._credit > before or active:
                 stuck_since = None
             elif not self._start_if_idle():
                 if self._credit >= wanted:
                     return
                 stuck_since = stuck_since or time.monotonic()
-                if time.monotonic() - stuck_since > 3.0:
+                if time.monotonic() - stuck_since > STUCK_S:
                     raise JobError("the queue of the board is full and nothing moves")
             in_ring_s = sum(seconds for _, seconds in self._queue)
             time.sleep(min(max(in_ring_s / 8, _POLL_S[0]), _POLL_S[1]))
