@@ -199,4 +199,5 @@ void host_console_finish(void) {
 
 void host_console_attach(const host_console_peer_t *peer) {
     console.peer = peer;
+    console.at_end = false;
 }
