@@ -1,0 +1,131 @@
+// The rows: every command and function of the product with its arguments, ranges and help. Parsing,
+// range checks, error texts, HELP and the reference page all come from here. Context: main loop.
+#include "basic_cmds/basic_cmds.h"
+
+#include "basic_cmds/configure.h"
+#include "basic_cmds/control.h"
+#include "basic_cmds/report.h"
+#include "stepper/stepper.h"
+
+#define OPTIONAL BASIC_ARG_OPTIONAL
+#define DEFAULTS (BASIC_ARG_OPTIONAL | BASIC_ARG_DEFAULT)
+#define ABOVE BASIC_ARG_ABOVE_MIN
+
+#define AXIS_ARG {"axis", BASIC_ARG_CHOICE, .choices = "X|Y|Z|A", .help = "the axis"}
+#define LINEAR_AXIS_ARG {"axis", BASIC_ARG_CHOICE, .choices = "X|Y|Z", .help = "the axis"}
+#define SWITCH_ARG(arg_name, text)                                                                 \
+    { arg_name, BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1, .help = text }
+
+static const basic_arg_spec_t init_args[INIT_ARGS] = {
+    [INIT_TOLERANCE] = {"arc_tolerance", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10,
+                        .fallback = 0.05, .unit = "mm", .help = "greatest radial error of an arc"},
+    [INIT_BUFFER] = {"buffer_size", BASIC_ARG_INTEGER, DEFAULTS, .min = 1, .max = STEPPER_BLOCKS_MAX,
+                     .fallback = STEPPER_BLOCKS_DEFAULT, .help = "slots of the look-ahead queue"},
+    [INIT_ESTOP] = {"estop_pin", BASIC_ARG_PIN, OPTIONAL,
+                    .help = "emergency stop input, active low with pull-up"},
+    [INIT_KEEP] = SWITCH_ARG("estop_keep_enabled", "1: drivers stay on in an emergency stop"),
+};
+
+static const basic_arg_spec_t axis_args[AXIS_ARGS] = {
+    [AXIS_ARG_AXIS] = AXIS_ARG,
+    [AXIS_ARG_STEP] = {"step_pin", BASIC_ARG_PIN, .help = "step output, a pulse of 10 us"},
+    [AXIS_ARG_DIR] = {"dir_pin", BASIC_ARG_PIN, .help = "direction output, high counts up"},
+    [AXIS_ARG_ENABLE] = {"enable_pin", BASIC_ARG_PIN, OPTIONAL, .help = "driver enable, active low"},
+    [AXIS_ARG_INVERT] = SWITCH_ARG("dir_invert", "1: direction output low counts up"),
+    [AXIS_ARG_SCALE] = {"steps_per_unit", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 100000,
+                        .fallback = 200, .unit = "steps/mm or steps/deg", .help = "scale"},
+    [AXIS_ARG_VELOCITY] = {"max_vel", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10000000,
+                           .fallback = 6000, .unit = "mm/min or deg/min", .help = "greatest speed"},
+    [AXIS_ARG_ACCELERATION] = {"max_accel", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0,
+                               .max = 1000000, .fallback = 500, .unit = "mm/s^2 or deg/s^2",
+                               .help = "greatest acceleration"},
+    [AXIS_ARG_BACKOFF] = {"home_backoff_mm", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 1000,
+                          .fallback = 3, .unit = "mm", .help = "way back from the home switch"},
+};
+
+static const basic_arg_spec_t limits_args[LIMITS_ARGS] = {
+    [LIMITS_AXIS] = LINEAR_AXIS_ARG,
+    [LIMITS_MIN] = {"min_mm", BASIC_ARG_NUMBER, .unit = "mm", .help = "lowest machine position"},
+    [LIMITS_MAX] = {"max_mm", BASIC_ARG_NUMBER, .unit = "mm", .help = "highest machine position"},
+};
+
+static const basic_arg_spec_t spindle_args[SPINDLE_ARGS] = {
+    [SPINDLE_PIN] = {"pin", BASIC_ARG_PIN, OPTIONAL, .help = "output switched by M3 and M5, 0: none"},
+    [SPINDLE_INVERT] = SWITCH_ARG("invert", "1: low is on"),
+};
+
+static const basic_arg_spec_t junction_args[] = {
+    {"deviation_mm", BASIC_ARG_NUMBER, .min = 0, .max = 10, .unit = "mm",
+     .help = "how far an arc that replaces the corner would pass from it; more is faster"},
+};
+
+static const basic_arg_spec_t run_args[] = {
+    {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1, .help = "as the second argument"},
+    {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1,
+     .help = "when idle 0: drivers stay on, 1: drivers off"},
+};
+
+static const basic_arg_spec_t position_args[] = {
+    AXIS_ARG,
+    {"position", BASIC_ARG_NUMBER, .unit = "mm or deg", .help = "machine position where it stands"},
+};
+
+static const basic_arg_spec_t gc_args[] = {
+    {"gcode", BASIC_ARG_RAW, .help = "a line of G-code as it is"},
+};
+
+static const basic_arg_spec_t gs_args[] = {
+    {"string$", BASIC_ARG_TEXT, .help = "a line of G-code as a string expression"},
+};
+
+static const basic_arg_spec_t gcode_args[] = {
+    {"code", BASIC_ARG_WORD, OPTIONAL, .help = "G0, G1, ...; blank repeats the last motion"},
+    {"letter", BASIC_ARG_WORD, BASIC_ARG_REPEAT, .help = "X, Y, Z, A, F or P"},
+    {"value", BASIC_ARG_NUMBER, .help = "its value"},
+};
+
+static const basic_arg_spec_t peek_args[] = {
+    {"what", BASIC_ARG_CHOICE, .choices = PEEK_CHOICES,
+     .help = "work position of an axis, ACTIVE (-1, 0, 1), STATUS bits or free BUFFER slots"},
+};
+
+#define ARGS(spec) .args = (spec), .arg_count = COUNT_OF_ARRAY(spec)
+
+const basic_command_t basic_cmds_commands[] = {
+    {"STEPPER INIT", ARGS(init_args), configure_init, "Prepares the motion system"},
+    {"STEPPER AXIS", ARGS(axis_args), configure_axis, "Configures an axis"},
+    {"STEPPER LIMITS", ARGS(limits_args), configure_limits, "Sets the soft limits of an axis"},
+    {"STEPPER SPINDLE", ARGS(spindle_args), configure_spindle, "Sets the spindle output"},
+    {"STEPPER JUNCTION", ARGS(junction_args), configure_junction, "Sets the junction deviation"},
+    {"STEPPER RUN", ARGS(run_args), control_run, "Turns drivers on and executes what is queued"},
+    {"STEPPER CLEAR", .run = control_clear, .help = "Empties the queue while nothing moves"},
+    {"STEPPER STOP", .run = control_stop,
+     .help = "Brakes to a standstill and empties the queue; the position stays exact"},
+    {"STEPPER ESTOP", .run = control_estop, .help = "Stops at once, drivers and spindle off"},
+    {"STEPPER CLOSE", .run = control_close, .help = "Stops motion and gives all pins back"},
+    {"STEPPER POSITION HOME", .run = control_position_home,
+     .help = "Makes this place zero of all axes and clears G92"},
+    {"STEPPER POSITION", ARGS(position_args), control_position,
+     "Says at which machine position an axis stands"},
+    {"STEPPER GC", ARGS(gc_args), control_gcode_text, "Queues a line of G-code"},
+    {"STEPPER GS", ARGS(gs_args), control_gcode_text, "Queues a line of G-code from a string"},
+    {"STEPPER GCODE", ARGS(gcode_args), control_gcode_words,
+     "Queues G-code given as words and expressions"},
+    {"STEPPER STATUS", .run = report_status, .help = "Shows state, positions and configuration"},
+};
+const size_t basic_cmds_command_count = COUNT_OF_ARRAY(basic_cmds_commands);
+
+const basic_function_t basic_cmds_functions[] = {
+    {"PEEK", "STEPPER", ARGS(peek_args), report_peek, "State of the motion system"},
+};
+const size_t basic_cmds_function_count = COUNT_OF_ARRAY(basic_cmds_functions);
+
+void basic_cmds_background(void) {
+    if (stepper_next_event() == STEPPER_EVENT_ESTOP) {
+        basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
+    }
+}
+
+void basic_cmds_break(void) {
+    stepper_stop();
+}

@@ -1,0 +1,20 @@
+// The product's own words as rows for the language: STEPPER ... and PEEK(STEPPER ...). The face of
+// basic_cmds/. Handlers convert units and call one function of another face; no motion logic, no
+// parsing. Context: main loop.
+#ifndef BASIC_CMDS_H
+#define BASIC_CMDS_H
+
+#include "basic/basic.h"
+
+extern const basic_command_t basic_cmds_commands[];
+extern const size_t basic_cmds_command_count;
+extern const basic_function_t basic_cmds_functions[];
+extern const size_t basic_cmds_function_count;
+
+// Tells the user what the machine did without being asked; for the language's background hook.
+void basic_cmds_background(void);
+
+// Ctrl-C: brings motion to a controlled stop.
+void basic_cmds_break(void);
+
+#endif

@@ -1,0 +1,30 @@
+// Handlers that set the machine up. Inside basic_cmds/ only. Context: main loop.
+#ifndef BASIC_CMDS_CONFIGURE_H
+#define BASIC_CMDS_CONFIGURE_H
+
+#include "basic/basic.h"
+
+err_t configure_init(const basic_arg_t *args, size_t count);
+err_t configure_axis(const basic_arg_t *args, size_t count);
+err_t configure_limits(const basic_arg_t *args, size_t count);
+err_t configure_spindle(const basic_arg_t *args, size_t count);
+err_t configure_junction(const basic_arg_t *args, size_t count);
+
+// Where each argument stands in the row's spec.
+enum { INIT_TOLERANCE, INIT_BUFFER, INIT_ESTOP, INIT_KEEP, INIT_ARGS };
+enum {
+    AXIS_ARG_AXIS,
+    AXIS_ARG_STEP,
+    AXIS_ARG_DIR,
+    AXIS_ARG_ENABLE,
+    AXIS_ARG_INVERT,
+    AXIS_ARG_SCALE,
+    AXIS_ARG_VELOCITY,
+    AXIS_ARG_ACCELERATION,
+    AXIS_ARG_BACKOFF,
+    AXIS_ARGS
+};
+enum { LIMITS_AXIS, LIMITS_MIN, LIMITS_MAX, LIMITS_ARGS };
+enum { SPINDLE_PIN, SPINDLE_INVERT, SPINDLE_ARGS };
+
+#endif

@@ -1,0 +1,112 @@
+// STEPPER RUN, CLEAR, STOP, ESTOP, CLOSE, POSITION, GC, GS, GCODE. Context: main loop.
+#include "basic_cmds/control.h"
+
+#include <ctype.h>
+
+#include "gcode/gcode.h"
+#include "stepper/stepper.h"
+
+// The mode may stand with or without the comma that the reference puts before it.
+err_t control_run(const basic_arg_t *args, size_t count) {
+    (void)count;
+    stepper_status_t status;
+    stepper_status(&status);
+    stepper_idle_t idle = status.idle;
+    for (size_t i = 0; i < 2; i++) {
+        if (args[i].given) {
+            idle = (stepper_idle_t)args[i].integer;
+        }
+    }
+    err_t err = stepper_run(idle);
+    if (err == ERR_OK) {
+        basic_printf(status.armed ? "Already armed\n" : "Stepper armed\n");
+    }
+    return err;
+}
+
+err_t control_clear(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    err_t err = stepper_clear();
+    if (err == ERR_OK) {
+        gcode_reset_modal();
+    }
+    return err;
+}
+
+err_t control_stop(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    if (stepper_active() < 0) {
+        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    }
+    stepper_stop();
+    return ERR_OK;
+}
+
+err_t control_estop(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    err_t err = stepper_estop();
+    if (err == ERR_OK) {
+        gcode_reset_modal();
+        stepper_status_t status;
+        stepper_status(&status);
+        basic_printf("Emergency stop - motion halted, buffer cleared, drivers %s\n",
+                     status.estop_keeps_enabled ? "still enabled" : "disabled");
+    }
+    return err;
+}
+
+err_t control_close(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    return stepper_close();
+}
+
+err_t control_position_home(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    err_t err = stepper_set_home();
+    if (err == ERR_OK) {
+        gcode_clear_offsets();
+    }
+    return err;
+}
+
+err_t control_position(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return stepper_set_position((axis_id_t)args[0].integer, args[1].number);
+}
+
+err_t control_gcode_text(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return gcode_line(args[0].text.text, args[0].text.length);
+}
+
+// The first argument is a code such as G1 or G92, the others are pairs of a letter and a value.
+err_t control_gcode_words(const basic_arg_t *args, size_t count) {
+    gcode_word_t words[GCODE_WORDS_MAX];
+    size_t used = 0;
+    const basic_text_t *code = &args[0].text;
+    num_t number;
+    if (code->length > 0) {
+        const char *end = code->text + code->length;
+        char letter = (char)toupper((unsigned char)code->text[0]);
+        if ((letter != 'G' && letter != 'M') || num_parse(code->text + 1, end, false, &number) != end) {
+            return err_raise(ERR_GCODE_UNSUPPORTED, "%.*s", (int)code->length, code->text);
+        }
+        words[used++] = (gcode_word_t){.letter = letter, .value = number.value};
+    }
+    for (size_t i = 1; i + 1 < count && used < GCODE_WORDS_MAX; i += 2) {
+        const basic_text_t *name = &args[i].text;
+        if (name->length != 1) {
+            return err_raise(ERR_GCODE_UNKNOWN_WORD, "%.*s", (int)name->length, name->text);
+        }
+        words[used++] = (gcode_word_t){
+            .letter = (char)toupper((unsigned char)name->text[0]),
+            .value = args[i + 1].number,
+        };
+    }
+    return gcode_words(words, used);
+}

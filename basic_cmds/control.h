@@ -1,0 +1,17 @@
+// Handlers that move and stop the machine. Inside basic_cmds/ only. Context: main loop.
+#ifndef BASIC_CMDS_CONTROL_H
+#define BASIC_CMDS_CONTROL_H
+
+#include "basic/basic.h"
+
+err_t control_run(const basic_arg_t *args, size_t count);
+err_t control_clear(const basic_arg_t *args, size_t count);
+err_t control_stop(const basic_arg_t *args, size_t count);
+err_t control_estop(const basic_arg_t *args, size_t count);
+err_t control_close(const basic_arg_t *args, size_t count);
+err_t control_position_home(const basic_arg_t *args, size_t count);
+err_t control_position(const basic_arg_t *args, size_t count);
+err_t control_gcode_text(const basic_arg_t *args, size_t count);
+err_t control_gcode_words(const basic_arg_t *args, size_t count);
+
+#endif

@@ -1,0 +1,81 @@
+// STEPPER STATUS and PEEK(STEPPER ...). Context: main loop.
+#include "basic_cmds/report.h"
+
+#include "gcode/gcode.h"
+#include "stepper/stepper.h"
+
+static const char *yes_no(bool yes) {
+    return yes ? "YES" : "NO";
+}
+
+static const char *on_off(bool on) {
+    return on ? "ON" : "OFF";
+}
+
+static double work_position(axis_id_t axis) {
+    return stepper_position(axis) - gcode_offset(axis);
+}
+
+static void print_axis(axis_id_t axis) {
+    stepper_axis_t config;
+    if (!stepper_axis_config(axis, &config)) {
+        return;
+    }
+    char name = "XYZA"[axis];
+    const char *unit = axis == AXIS_A ? "deg" : "mm";
+    basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, work_position(axis), unit,
+                 stepper_position(axis), unit, (long)stepper_position_steps(axis));
+    basic_printf("%c pins: step %s, dir %s%s, enable %s\n", name, pins_name(config.step_gpio),
+                 pins_name(config.dir_gpio), config.dir_invert ? " inverted" : "",
+                 pins_name(config.enable_gpio));
+    basic_printf("%c motion: %.9g steps/%s, max %.9g %s/min, %.9g %s/s^2\n", name,
+                 config.steps_per_unit, unit, config.max_velocity, unit, config.max_acceleration, unit);
+    double min, max;
+    if (stepper_axis_limits(axis, &min, &max)) {
+        basic_printf("%c limits: %.3f to %.3f %s\n", name, min, max, unit);
+    }
+}
+
+err_t report_status(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    stepper_status_t status;
+    stepper_status(&status);
+    if (!status.initialized) {
+        basic_printf("Stepper not initialized\n");
+        return ERR_OK;
+    }
+    const char *motion = status.stopping ? "STOPPING" : status.moving ? "ACTIVE" : "IDLE";
+    basic_printf("Armed: %s, motion: %s, position known: %s\n", yes_no(status.armed), motion,
+                 yes_no(status.position_known));
+    basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
+                 (unsigned)(status.blocks - status.blocks_free), (unsigned)status.blocks,
+                 (unsigned)status.executed, (unsigned)status.underruns);
+    basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
+    basic_printf("Junction deviation: %.9g mm, arc tolerance: %.9g mm\n", status.junction_deviation_mm,
+                 status.arc_tolerance_mm);
+    basic_printf("E-STOP: %s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
+                 yes_no(status.estop_keeps_enabled));
+    basic_printf("Spindle: %s%s, %s\n", pins_name(status.spindle_gpio),
+                 status.spindle_invert ? " inverted" : "", on_off(status.spindle_on));
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        print_axis(axis);
+    }
+    return ERR_OK;
+}
+
+err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    (void)count;
+    int64_t what = args[0].integer;
+    if (what < AXIS_COUNT) {
+        axis_id_t axis = (axis_id_t)what;
+        if (!stepper_axis_configured(axis)) {
+            return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", "XYZA"[axis]);
+        }
+        *result = (basic_value_t){.type = BASIC_FLOAT, .number = work_position(axis)};
+        return ERR_OK;
+    }
+    const int64_t values[] = {stepper_active(), stepper_status_bits(), stepper_blocks_free()};
+    *result = (basic_value_t){.type = BASIC_INTEGER, .integer = values[what - AXIS_COUNT]};
+    return ERR_OK;
+}

@@ -1,0 +1,13 @@
+// Handlers that tell about the machine. Inside basic_cmds/ only. Context: main loop.
+#ifndef BASIC_CMDS_REPORT_H
+#define BASIC_CMDS_REPORT_H
+
+#include "basic/basic.h"
+
+err_t report_status(const basic_arg_t *args, size_t count);
+
+// PEEK(STEPPER what); PEEK_CHOICES says what there is, in the order of the handler's cases.
+#define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER"
+err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result);
+
+#endif

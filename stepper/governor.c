@@ -1,0 +1,326 @@
+// The governor. Each slice of a millisecond it chooses the speed at the end of the slice: as fast as
+// acceleration and feed allow, but not so fast that braking could not meet the speed that the planner
+// set for the end of the block. The way made in the slice becomes a segment for the tick; a slice in
+// which blocks meet becomes one segment for each side, so that corners are passed where they are.
+//
+//   speed |       _______________           v1 = min(v + a dt, feed, braking curve)
+//         |     .'               '.
+//         |___.'                   '.___ exit speed of the block
+//         +--|--|--|--|--|--|--|--|--|-> slices
+//
+// Speeds are float: the way through a block is a fraction in 2^-64, so that neither a slow feed nor a
+// long move loses anything, and positions are steps in 2^-32. All of it is computed with single IEEE
+// operations in a fixed order; host and board make the same segments to the bit.
+// Context: governor (below every interrupt, above the main loop), if a function says nothing else.
+#include "stepper/governor.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "stepper/planner.h"
+#include "stepper/segment_writer.h"
+#include "stepper/step_isr.h"
+
+#define TICK_S (1.0f / (float)HAL_TICK_HZ)
+#define SLICE_TICKS 100.0f
+// Ways shorter than this are joined with what follows instead of getting a segment of their own.
+#define SEGMENT_TICKS_MIN 8.0f
+#define DWELL_SLICE_TICKS 100u
+// Time the drivers get between being enabled and the first step.
+#define ENABLE_TICKS 5u
+// Computed ahead: more rides out longer delays of this interrupt, less reacts faster.
+#define AHEAD_TICKS 1600u
+#define PROGRESS_ONE 18446744073709551616.0f // 2^64
+
+static struct {
+    governor_pins_t pins;
+    volatile bool armed;
+    volatile bool stopping;
+    volatile bool estop_event;
+    volatile uint32_t executed;
+    volatile uint32_t drops;
+    bool idle_off;
+    bool drivers_on;
+
+    const block_t *block; // being executed, NULL: none
+    uint32_t dwell_left;  // ticks, of a dwell
+    uint64_t progress;    // of a move, in 2^-64 of its length
+    float speed;          // along the path now, units/s
+    int32_t start[AXIS_COUNT]; // steps, where the block began
+    float pending_ticks;  // computed way that has no segment yet
+} governor;
+
+// ---- The way along a move ------------------------------------------------------------------------
+
+static float remaining(void) {
+    return (float)~governor.progress * (governor.block->move.length / PROGRESS_ONE);
+}
+
+static void target_at(uint64_t progress, int64_t target[AXIS_COUNT]) {
+    uint32_t fraction = (uint32_t)(progress >> 32);
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        int64_t delta = governor.block->move.target[axis] - governor.start[axis];
+        target[axis] = ((int64_t)governor.start[axis] << 32) + delta * fraction;
+    }
+}
+
+static void target_at_end(int64_t target[AXIS_COUNT]) {
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        target[axis] = (int64_t)governor.block->move.target[axis] << 32;
+    }
+}
+
+static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
+    segment_writer_move(target, governor.pending_ticks, at_rest);
+    governor.pending_ticks = 0.0f;
+}
+
+// Speed at the end of `dt`, with `left` to go to a point that may be passed at exit_speed2.
+// The last bound solves v1^2 = exit^2 + 2 a (left - (v + v1) / 2 dt): braking that starts behind this
+// slice still succeeds.
+static float next_speed(float left, float dt, float exit_speed2) {
+    const block_t *block = governor.block;
+    float v = governor.speed;
+    float change = block->move.acceleration * dt;
+    float top = governor.stopping ? 0.0f : block->move.speed;
+    float v1 = fminf(v + change, top);
+    float root2 = change * change + 4.0f * (exit_speed2 + 2.0f * block->move.acceleration * left - change * v);
+    float braking = root2 > 0.0f ? 0.5f * (sqrtf(root2) - change) : 0.0f;
+    v1 = fminf(v1, braking);
+    return fmaxf(fmaxf(v1, v - change), 0.0f);
+}
+
+static void start_block(const block_t *block) {
+    governor.block = block;
+    governor.progress = 0;
+    governor.dwell_left = block->kind == BLOCK_DWELL ? block->dwell_ticks : 0;
+    segment_writer_end_steps(governor.start);
+}
+
+static void finish_block(void) {
+    governor.block = NULL;
+    governor.executed = governor.executed + 1;
+    planner_release();
+}
+
+static void drop_blocks(void) {
+    governor.block = NULL;
+    governor.speed = 0.0f;
+    governor.pending_ticks = 0.0f;
+    governor.stopping = false;
+    while (planner_front() != NULL) {
+        planner_release();
+    }
+    segment_writer_settle();
+    governor.drops = governor.drops + 1;
+}
+
+// The move ends within the slice of `dt`. Returns the ticks of it that are used.
+static float pass_end(float left, float v1, float dt, float exit_speed2) {
+    float v = governor.speed;
+    float acceleration = (v1 - v) / dt;
+    float end_speed = sqrtf(fmaxf(v * v + 2.0f * acceleration * left, 0.0f));
+    float time = v + end_speed > 0.0f ? fminf(2.0f * left / (v + end_speed), dt) : dt;
+    float ticks = time * (float)HAL_TICK_HZ;
+    bool at_rest = exit_speed2 <= 0.0f;
+    governor.pending_ticks += ticks;
+    governor.speed = at_rest ? 0.0f : end_speed;
+
+    int64_t target[AXIS_COUNT];
+    target_at_end(target);
+    if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
+        write_way(target, at_rest);
+    }
+    int32_t end[AXIS_COUNT];
+    memcpy(end, governor.block->move.target, sizeof end);
+    finish_block();
+    if (!at_rest) {
+        start_block(planner_front());
+        memcpy(governor.start, end, sizeof end);
+    }
+    return ticks;
+}
+
+// One slice of a move, through as many blocks as it touches.
+static void advance_move(void) {
+    float ticks = SLICE_TICKS;
+    while (ticks >= 1.0f) {
+        float dt = ticks * TICK_S;
+        float left = remaining();
+        float exit_speed2 = planner_exit_speed2();
+        float v1 = next_speed(left, dt, exit_speed2);
+        float way = 0.5f * (governor.speed + v1) * dt;
+        float advance = way * (PROGRESS_ONE / governor.block->move.length);
+        if (way < left && advance < (float)~governor.progress) {
+            governor.progress += (uint64_t)advance;
+            governor.speed = v1;
+            governor.pending_ticks += ticks;
+            int64_t target[AXIS_COUNT];
+            target_at(governor.progress, target);
+            bool stopped = governor.stopping && v1 <= 0.0f;
+            write_way(target, stopped);
+            if (stopped) {
+                drop_blocks();
+            }
+            return;
+        }
+        ticks -= pass_end(left, v1, dt, exit_speed2);
+        if (governor.block == NULL) {
+            return; // at rest
+        }
+    }
+}
+
+static void advance_dwell(void) {
+    uint32_t ticks = governor.dwell_left < DWELL_SLICE_TICKS ? governor.dwell_left : DWELL_SLICE_TICKS;
+    if (ticks > 0) {
+        segment_writer_wait(ticks, 0, 0);
+        governor.dwell_left -= ticks;
+    }
+    if (governor.dwell_left == 0) {
+        finish_block();
+    }
+}
+
+// ---- What is next --------------------------------------------------------------------------------
+
+static void switch_drivers(bool on) {
+    uint32_t mask = governor.pins.enable;
+    segment_writer_wait(on ? ENABLE_TICKS : 1, on ? 0 : mask, on ? mask : 0);
+    governor.drivers_on = on;
+}
+
+// Makes the next segment or two. False if there is nothing to do.
+static bool advance(void) {
+    const block_t *front = planner_front();
+    if (governor.stopping && governor.speed <= 0.0f) {
+        drop_blocks();
+        return true;
+    }
+    bool wanted = front != NULL || !governor.idle_off;
+    if (wanted != governor.drivers_on) {
+        switch_drivers(wanted);
+        return true;
+    }
+    if (front == NULL) {
+        return false;
+    }
+    if (governor.block == NULL) {
+        start_block(front);
+    }
+    switch (front->kind) {
+    case BLOCK_MOVE:
+        advance_move();
+        break;
+    case BLOCK_DWELL:
+        advance_dwell();
+        break;
+    case BLOCK_PINS:
+        segment_writer_wait(1, front->pins.set, front->pins.clear);
+        finish_block();
+        break;
+    }
+    return true;
+}
+
+void hal_on_governor(void) {
+    if (step_isr_tripped()) {
+        governor_emergency_stop();
+        step_isr_rearm();
+        governor.estop_event = true;
+        return;
+    }
+    if (!governor.armed) {
+        return;
+    }
+    bool more = true;
+    while (more && segment_writer_ahead_ticks() < AHEAD_TICKS && segment_writer_has_room()) {
+        more = advance();
+    }
+    if (ring_used(&segments.ring) > 0 && !hal_tick_running()) {
+        hal_tick_start();
+    }
+}
+
+// ---- For the main loop ---------------------------------------------------------------------------
+
+void governor_reset(const int32_t steps[AXIS_COUNT]) {
+    governor_pins_t pins = governor.pins;
+    memset(&governor, 0, sizeof governor);
+    governor.pins = pins;
+    segment_writer_reset(steps);
+}
+
+void governor_set_pins(const governor_pins_t *pins) {
+    governor.pins = *pins;
+    segment_writer_set_dir_pins(pins->dir, pins->dir_inverted);
+}
+
+void governor_arm(bool idle_off) {
+    governor.idle_off = idle_off;
+    governor.armed = true;
+    if (step_isr_watches() && !hal_tick_running()) {
+        hal_tick_start();
+    }
+}
+
+void governor_disarm(void) {
+    governor.armed = false;
+    governor.drivers_on = false;
+}
+
+void governor_set_position(const int32_t steps[AXIS_COUNT]) {
+    segment_writer_reset(steps);
+}
+
+void governor_stop(void) {
+    governor.stopping = governor_working();
+}
+
+void governor_emergency_stop(void) {
+    int32_t steps[AXIS_COUNT];
+    governor_position(steps);
+    step_isr_abort();
+    drop_blocks();
+    segment_writer_reset(steps);
+    bool spindle_off_level = governor.pins.spindle_inverted;
+    hal_pins_set(spindle_off_level ? governor.pins.spindle : 0);
+    hal_pins_clear(spindle_off_level ? 0 : governor.pins.spindle);
+    if (!governor.pins.estop_keeps_enabled) {
+        hal_pins_set(governor.pins.enable);
+    }
+    governor.drivers_on = false;
+    governor.armed = false;
+}
+
+void governor_position(int32_t steps[AXIS_COUNT]) {
+    if (!step_isr_position(steps)) {
+        segment_writer_end_steps(steps);
+    }
+}
+
+bool governor_armed(void) {
+    return governor.armed;
+}
+
+bool governor_stopping(void) {
+    return governor.stopping;
+}
+
+bool governor_working(void) {
+    return governor.armed && (ring_used(&segments.ring) > 0 || ring_used(&blocks.ring) > 0);
+}
+
+uint32_t governor_executed(void) {
+    return governor.executed;
+}
+
+uint32_t governor_drops(void) {
+    return governor.drops;
+}
+
+bool governor_take_estop_event(void) {
+    bool event = governor.estop_event;
+    governor.estop_event = false;
+    return event;
+}

@@ -1,0 +1,50 @@
+// The governor: turns blocks into segments, some milliseconds ahead of the tick. Inside stepper/ only.
+#ifndef STEPPER_GOVERNOR_H
+#define STEPPER_GOVERNOR_H
+
+#include "stepper/stepper.h"
+
+// Pins that the governor switches at their place in the motion. Masks may be 0.
+typedef struct {
+    uint32_t dir[AXIS_COUNT];
+    uint32_t dir_inverted; // bit n: axis n has its direction pin low when it counts up
+    uint32_t enable;       // active low
+    uint32_t spindle;
+    bool spindle_inverted;
+    bool estop_keeps_enabled;
+} governor_pins_t;
+
+// Everything below is for the main loop with the governor locked, if nothing else is said.
+
+// At rest at `steps`, disarmed, nothing to do.
+void governor_reset(const int32_t steps[AXIS_COUNT]);
+void governor_set_pins(const governor_pins_t *pins);
+
+// From now on blocks are executed and the drivers are on: always, or with `idle_off` only while there
+// is something to do. Follow with hal_governor_request().
+void governor_arm(bool idle_off);
+
+// Blocks wait from now on; drivers keep their state. At rest only.
+void governor_disarm(void);
+
+// Says that the motors stand at `steps`. At rest only.
+void governor_set_position(const int32_t steps[AXIS_COUNT]);
+
+// Brake to a stop, then drop all blocks. Follow with hal_governor_request().
+void governor_stop(void);
+
+// Ends all motion within this call and disarms, see stepper_estop(). Contexts: also governor.
+void governor_emergency_stop(void);
+
+// Where the motors are now.
+void governor_position(int32_t steps[AXIS_COUNT]);
+
+// The following may be read in any context, unlocked.
+bool governor_armed(void);
+bool governor_stopping(void);
+bool governor_working(void);          // segments are executed, or blocks wait and are allowed to start
+uint32_t governor_executed(void);     // blocks since governor_reset()
+uint32_t governor_drops(void);        // times the queue was dropped by a stop: the planner must follow
+bool governor_take_estop_event(void); // a safety input has stopped the machine since the last call
+
+#endif

@@ -1,0 +1,31 @@
+// Writes segments: from positions and times to phases and rates. Inside stepper/ only.
+// Context: governor, or main with the governor locked.
+#ifndef STEPPER_SEGMENT_WRITER_H
+#define STEPPER_SEGMENT_WRITER_H
+
+#include "stepper/segment.h"
+
+// Stands at `steps`, all directions up.
+void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
+
+// `inverted`: bit n set if the direction pin of axis n is low when it counts up.
+void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
+
+// Goes to `target` (2^-32 steps) within `ticks`. Rounding of the ticks is made up for in the next
+// call. `at_rest`: the motion ends there.
+void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, bool at_rest);
+
+// Stands still for `ticks` (>= 1); the pins are switched at the first one.
+void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear);
+
+// Motor positions at the end of the last segment.
+void segment_writer_end_steps(int32_t steps[AXIS_COUNT]);
+
+// Takes the motor position as the exact position, after a stop between two steps.
+void segment_writer_settle(void);
+
+// Ticks in the ring; room for what one call of the functions above can write, and some more.
+uint32_t segment_writer_ahead_ticks(void);
+bool segment_writer_has_room(void);
+
+#endif

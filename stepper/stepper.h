@@ -1,0 +1,149 @@
+// Four stepper axes: configuration, the motion queue and what may be asked of it. The face of stepper/.
+// Positions are machine coordinates: mm for X, Y, Z and degrees for A. Work offsets are G-code's business.
+// Context: main loop, except hal_on_tick() and hal_on_governor(), which the port calls.
+#ifndef STEPPER_H
+#define STEPPER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/base.h"
+#include "hal/hal.h"
+
+typedef enum { AXIS_X, AXIS_Y, AXIS_Z, AXIS_A, AXIS_COUNT } axis_id_t;
+
+#define STEPPER_BLOCKS_MAX 1024u
+#define STEPPER_BLOCKS_DEFAULT 32u
+#define STEPPER_JUNCTION_DEVIATION_MM 0.02 // default
+#define STEPPER_STEP_RATE_MAX_HZ 50000.0   // one step in every second tick
+
+// ---- Configuration -------------------------------------------------------------------------------
+
+typedef struct {
+    double arc_tolerance_mm;
+    uint32_t blocks;          // slots of the queue, 1..STEPPER_BLOCKS_MAX
+    uint8_t estop_gpio;       // active low, pulled up; PINS_NONE: none
+    bool estop_keeps_enabled; // drivers stay on in an emergency stop
+} stepper_init_t;
+
+typedef struct {
+    uint8_t step_gpio;
+    uint8_t dir_gpio;           // high: positive direction, unless inverted
+    uint8_t enable_gpio;        // active low; PINS_NONE: none
+    bool dir_invert;
+    double steps_per_unit;      // steps/mm or steps/degree, > 0
+    double max_velocity;        // mm/min or degrees/min, > 0
+    double max_acceleration;    // mm/s^2 or degrees/s^2, > 0
+    double home_backoff_mm;
+} stepper_axis_t;
+
+// Makes everything ready and forgets all axes. Error: already initialised; a bad E-STOP pin.
+err_t stepper_init(const stepper_init_t *config);
+
+// Configures an axis, anew if it was configured. A refused call changes nothing.
+// Errors: not initialised, moving or queued, pins taken.
+err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config);
+
+// Greatest speed in units/min that the 50 kHz step rate allows on the axis.
+double stepper_step_rate_limit(axis_id_t axis);
+
+// Soft limits of X, Y or Z. Errors: axis not configured, min >= max.
+err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm);
+
+// The output that spindle on and off switch; PINS_NONE takes it away. Refused while anything is queued.
+err_t stepper_spindle(uint8_t gpio, bool invert);
+
+// Junction deviation in mm (>= 0, 0 stops at every corner). Applies to moves queued from now on.
+err_t stepper_junction(double deviation_mm);
+
+// ---- Control -------------------------------------------------------------------------------------
+
+typedef enum { STEPPER_IDLE_HOLD = 0, STEPPER_IDLE_DISABLE = 1 } stepper_idle_t;
+
+// Arms: turns the drivers on and executes what is queued now and later. `idle` says what the drivers
+// do when the queue has drained. Error: E-STOP asserted.
+err_t stepper_run(stepper_idle_t idle);
+
+// Drops the queue. Error: motion is under way.
+err_t stepper_clear(void);
+
+// Controlled stop: brakes along the path within the acceleration limits, drops the rest of the queue;
+// the position stays exact. Returns at once; until standstill new moves are refused. No effect at rest.
+void stepper_stop(void);
+
+// Emergency stop: no further step, queue dropped, spindle off, drivers off (unless INIT keeps them),
+// disarmed. After a stop from speed the position counts as unknown.
+err_t stepper_estop(void);
+
+// Controlled stop, then gives all pins back. Waits for standstill.
+err_t stepper_close(void);
+
+// Says that the machine stands at `position` of `axis` / at zero of all axes. Position is known then.
+// Refused while anything moves or is queued.
+err_t stepper_set_position(axis_id_t axis, double position);
+err_t stepper_set_home(void);
+
+// ---- The queue -----------------------------------------------------------------------------------
+// Each call puts one entry behind all before it, or fails and changes nothing.
+// Errors of all: not initialised, queue full, stopping.
+
+typedef struct {
+    double target[AXIS_COUNT]; // machine coordinates; axes that should not move: stepper_target()
+    double feed;               // units/min along X, Y, Z (A alone: degrees/min), > 0; ignored if rapid
+    bool rapid;                // as fast as the axes allow
+} stepper_move_t;
+
+// A straight line. Further errors: position unknown, an axis that should move is not configured,
+// beyond the soft limits or what an int32 of steps can hold.
+err_t stepper_move(const stepper_move_t *move);
+
+// Waits at standstill. 0..STEPPER_DWELL_MAX_MS.
+#define STEPPER_DWELL_MAX_MS 86400000.0
+err_t stepper_dwell(double milliseconds);
+
+// Switches the spindle at this place of the queue. Further error: no spindle pin.
+err_t stepper_spindle_switch(bool on);
+
+// Where the last queued move ends; where the machine stands if none is queued.
+void stepper_target(double target[AXIS_COUNT]);
+
+// ---- Reports -------------------------------------------------------------------------------------
+
+typedef struct {
+    bool initialized, armed, moving, stopping, position_known, spindle_on;
+    stepper_idle_t idle;
+    uint32_t blocks, blocks_free;
+    uint32_t executed;  // queue entries carried out since INIT
+    uint32_t underruns; // times the tick ran dry at speed since INIT; anything but 0 is a fault of ours
+    double junction_deviation_mm, arc_tolerance_mm;
+    uint8_t estop_gpio, spindle_gpio;
+    bool estop_keeps_enabled, spindle_invert;
+} stepper_status_t;
+
+void stepper_status(stepper_status_t *status);
+
+bool stepper_axis_configured(axis_id_t axis);
+// The configuration and the soft limits; false if there are none.
+bool stepper_axis_config(axis_id_t axis, stepper_axis_t *config);
+bool stepper_axis_limits(axis_id_t axis, double *min_mm, double *max_mm);
+
+// Where the motor is now, to the step; in steps and in units.
+int32_t stepper_position_steps(axis_id_t axis);
+double stepper_position(axis_id_t axis);
+
+// -1 not initialised, 1 working on the queue, 0 idle.
+int stepper_active(void);
+
+// Free queue slots; 0 before INIT.
+uint32_t stepper_blocks_free(void);
+
+#define STEPPER_STATUS_ESTOP (1u << 6)
+#define STEPPER_STATUS_POSITION_KNOWN (1u << 7)
+// Live inputs and state: the bits of PEEK(STEPPER STATUS).
+uint32_t stepper_status_bits(void);
+
+// What happened without being asked for since the last call; NONE when there is no more.
+typedef enum { STEPPER_EVENT_NONE, STEPPER_EVENT_ESTOP } stepper_event_t;
+stepper_event_t stepper_next_event(void);
+
+#endif
