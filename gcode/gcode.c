@@ -226,8 +226,10 @@ static err_t move(const line_t *line) {
 
 // G92: the last commanded position gets these coordinates; moves that wait keep their way.
 static err_t set_offsets(const line_t *line) {
-    if ((stepper_status_bits() & STEPPER_STATUS_POSITION_KNOWN) == 0) {
-        return err_raise(ERR_POSITION_UNKNOWN, NULL);
+    stepper_status_t status;
+    stepper_status(&status);
+    if (!status.position_known || status.stopping) {
+        return err_raise(status.stopping ? ERR_STEPPER_STOPPING : ERR_POSITION_UNKNOWN, NULL);
     }
     double target[AXIS_COUNT];
     stepper_target(target);

@@ -84,12 +84,11 @@ typedef struct {
     float direction[AXIS_COUNT];
     float length;       // in all axes
     float feed_length;  // what the feed counts: X, Y, Z; A if it moves alone
-    float share[AXIS_COUNT]; // units of the axis per unit of path, as it will be stepped
     float speed;
     float acceleration;
 } geometry_t;
 
-static void measure(geometry_t *g, const double target[AXIS_COUNT], const int32_t steps[AXIS_COUNT]) {
+static void measure(geometry_t *g, const double target[AXIS_COUNT]) {
     double delta[AXIS_COUNT];
     double linear2 = 0.0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
@@ -102,11 +101,6 @@ static void measure(geometry_t *g, const double target[AXIS_COUNT], const int32_
     float per_length = 1.0f / g->length;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         g->direction[axis] = (float)delta[axis] * per_length;
-        // Rounding to whole steps can make an axis go further than the unrounded way says; the axis'
-        // limits hold for what is stepped.
-        int32_t stepped = steps[axis] - planner.target_steps[axis];
-        float rounded = stepped == 0 ? 0.0f : fabsf((float)axis_from_steps(axis, stepped)) * per_length;
-        g->share[axis] = fmaxf(fabsf(g->direction[axis]), rounded);
     }
 }
 
@@ -114,9 +108,10 @@ static void limit(geometry_t *g, const stepper_move_t *move) {
     g->speed = move->rapid ? FLT_MAX : (float)move->feed / 60.0f * (g->length / g->feed_length);
     g->acceleration = FLT_MAX;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if (g->share[axis] > 0.0f && axes[axis].configured) {
-            g->speed = fminf(g->speed, axes[axis].velocity / g->share[axis]);
-            g->acceleration = fminf(g->acceleration, axes[axis].acceleration / g->share[axis]);
+        float share = fabsf(g->direction[axis]);
+        if (share > 0.0f && axes[axis].configured) {
+            g->speed = fminf(g->speed, axes[axis].velocity / share);
+            g->acceleration = fminf(g->acceleration, axes[axis].acceleration / share);
         }
     }
 }
@@ -200,7 +195,7 @@ void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AX
         return;
     }
     geometry_t g;
-    measure(&g, move->target, target_steps);
+    measure(&g, move->target);
     limit(&g, move);
 
     block_t *block = next_slot();

@@ -1,0 +1,68 @@
+// The machine's state and what it forbids. Context: main loop.
+#include "stepper/machine.h"
+
+#include "stepper/axis.h"
+#include "stepper/governor.h"
+#include "stepper/planner.h"
+
+machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
+
+void machine_follow_motors(void) {
+    int32_t steps[AXIS_COUNT];
+    hal_governor_lock();
+    governor_position(steps);
+    hal_governor_unlock();
+    planner_set_position(steps);
+}
+
+void machine_follow_stops(void) {
+    uint32_t drops = governor_drops();
+    if (drops != machine.drops_seen && !governor_working()) {
+        machine.drops_seen = drops;
+        machine_follow_motors();
+    }
+}
+
+bool machine_stopping(void) {
+    return governor_stopping() || governor_drops() != machine.drops_seen;
+}
+
+bool machine_at_rest(void) {
+    return !governor_working() && ring_used(&blocks.ring) == 0;
+}
+
+err_t machine_check_initialized(void) {
+    if (!machine.initialized) {
+        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    }
+    machine_follow_stops();
+    return ERR_OK;
+}
+
+err_t machine_check_at_rest(void) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK && !machine_at_rest()) {
+        err = err_raise(ERR_STEPPER_BUSY, NULL);
+    }
+    return err;
+}
+
+err_t machine_check_axis(axis_id_t axis) {
+    return axes[axis].configured ? ERR_OK : err_raise(ERR_AXIS_NOT_CONFIGURED, "%s", axis_name(axis));
+}
+
+err_t machine_check_queue(void) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (machine_stopping()) {
+        return err_raise(ERR_STEPPER_STOPPING, NULL);
+    }
+    return ring_free(&blocks.ring) > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
+}
+
+bool machine_estop_asserted(void) {
+    uint32_t mask = pins_mask(machine.config.estop_gpio);
+    return mask != 0 && (hal_pins_read() & mask) == 0;
+}

@@ -1,0 +1,40 @@
+// The machine's state and what it forbids, between the stepper_*.c files. Inside stepper/ only.
+// Context: main loop.
+#ifndef STEPPER_MACHINE_H
+#define STEPPER_MACHINE_H
+
+#include "stepper/stepper.h"
+
+typedef struct {
+    bool initialized;
+    bool position_known;
+    stepper_idle_t idle;
+    stepper_init_t config;
+    uint8_t spindle_gpio;
+    bool spindle_invert;
+    uint32_t drops_seen; // of governor_drops(), that the planner has followed
+} machine_t;
+
+extern machine_t machine;
+
+// The planner goes on from where the motors stand.
+void machine_follow_motors(void);
+
+// After a stop the queue is gone; what is queued next starts where the machine stands.
+void machine_follow_stops(void);
+
+// A stop is under way; the planner does not know yet where the machine will stand.
+bool machine_stopping(void);
+
+// Nothing moves and nothing waits.
+bool machine_at_rest(void);
+
+bool machine_estop_asserted(void);
+
+// What must be true before a call may do its work; each raises its error.
+err_t machine_check_initialized(void);
+err_t machine_check_at_rest(void); // and initialised
+err_t machine_check_queue(void);   // initialised, not stopping, a slot free
+err_t machine_check_axis(axis_id_t axis);
+
+#endif

@@ -1,0 +1,108 @@
+// Arming, stopping, and where the machine stands. Context: main loop.
+#include "stepper/axis.h"
+#include "stepper/governor.h"
+#include "stepper/machine.h"
+#include "stepper/planner.h"
+
+err_t stepper_run(stepper_idle_t idle) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (machine_estop_asserted()) {
+        return err_raise(ERR_ESTOP_ACTIVE, NULL);
+    }
+    machine.idle = idle;
+    hal_governor_lock();
+    governor_arm(idle == STEPPER_IDLE_DISABLE);
+    hal_governor_request();
+    hal_governor_unlock();
+    return ERR_OK;
+}
+
+err_t stepper_clear(void) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (governor_working()) {
+        return err_raise(ERR_CLEAR_WHILE_ACTIVE, NULL);
+    }
+    hal_governor_lock();
+    planner_reset(machine.config.blocks);
+    hal_governor_unlock();
+    machine_follow_motors();
+    return ERR_OK;
+}
+
+void stepper_stop(void) {
+    if (!machine.initialized) {
+        return;
+    }
+    hal_governor_lock();
+    governor_stop();
+    hal_governor_request();
+    hal_governor_unlock();
+}
+
+err_t stepper_estop(void) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    hal_governor_lock();
+    machine.position_known = machine.position_known && !governor_working();
+    governor_emergency_stop();
+    hal_governor_unlock();
+    machine_follow_stops();
+    return ERR_OK;
+}
+
+// ---- Position ------------------------------------------------------------------------------------
+
+static void stand_at(const int32_t steps[AXIS_COUNT]) {
+    hal_governor_lock();
+    governor_set_position(steps);
+    hal_governor_unlock();
+    planner_set_position(steps);
+    machine.position_known = true;
+}
+
+err_t stepper_set_home(void) {
+    err_t err = machine_check_at_rest();
+    if (err == ERR_OK) {
+        stand_at((const int32_t[AXIS_COUNT]){0});
+    }
+    return err;
+}
+
+err_t stepper_set_position(axis_id_t axis, double position) {
+    err_t err = machine_check_at_rest();
+    if (err == ERR_OK) {
+        err = machine_check_axis(axis);
+    }
+    if (err != ERR_OK) {
+        return err;
+    }
+    int32_t steps[AXIS_COUNT];
+    hal_governor_lock();
+    governor_position(steps);
+    hal_governor_unlock();
+    if (!axis_to_steps(axis, position, &steps[axis])) {
+        return err_raise(ERR_AXIS_TOO_FAR, "%s", axis_name(axis));
+    }
+    stand_at(steps);
+    return ERR_OK;
+}
+
+int32_t stepper_position_steps(axis_id_t axis) {
+    int32_t steps[AXIS_COUNT];
+    hal_governor_lock();
+    governor_position(steps);
+    hal_governor_unlock();
+    return steps[axis];
+}
+
+double stepper_position(axis_id_t axis) {
+    return axis_from_steps(axis, stepper_position_steps(axis));
+}

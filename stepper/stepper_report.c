@@ -1,0 +1,72 @@
+// What may be asked of the machine. Context: main loop.
+#include "stepper/axis.h"
+#include "stepper/governor.h"
+#include "stepper/machine.h"
+#include "stepper/planner.h"
+#include "stepper/step_isr.h"
+
+void stepper_status(stepper_status_t *status) {
+    machine_follow_stops();
+    uint32_t spindle = pins_mask(machine.spindle_gpio);
+    bool spindle_high = spindle != 0 && (hal_pins_read() & spindle) != 0;
+    *status = (stepper_status_t){
+        .initialized = machine.initialized,
+        .armed = governor_armed(),
+        .moving = governor_working(),
+        .stopping = machine_stopping(),
+        .position_known = machine.position_known,
+        .spindle_on = spindle != 0 && spindle_high != machine.spindle_invert,
+        .idle = machine.idle,
+        .blocks = machine.config.blocks,
+        .blocks_free = stepper_blocks_free(),
+        .executed = governor_executed(),
+        .underruns = step_isr_dry_count(),
+        .junction_deviation_mm = (double)planner_junction_deviation(),
+        .arc_tolerance_mm = machine.config.arc_tolerance_mm,
+        .estop_gpio = machine.config.estop_gpio,
+        .spindle_gpio = machine.spindle_gpio,
+        .estop_keeps_enabled = machine.config.estop_keeps_enabled,
+        .spindle_invert = machine.spindle_invert,
+    };
+}
+
+bool stepper_axis_configured(axis_id_t axis) {
+    return axes[axis].configured;
+}
+
+bool stepper_axis_config(axis_id_t axis, stepper_axis_t *config) {
+    *config = axes[axis].config;
+    return axes[axis].configured;
+}
+
+bool stepper_axis_limits(axis_id_t axis, double *min_mm, double *max_mm) {
+    *min_mm = axes[axis].min;
+    *max_mm = axes[axis].max;
+    return axes[axis].limited;
+}
+
+int stepper_active(void) {
+    if (!machine.initialized) {
+        return -1;
+    }
+    return governor_working() ? 1 : 0;
+}
+
+uint32_t stepper_blocks_free(void) {
+    return machine.initialized ? ring_free(&blocks.ring) : 0;
+}
+
+uint32_t stepper_status_bits(void) {
+    uint32_t bits = 0;
+    bits |= machine_estop_asserted() ? STEPPER_STATUS_ESTOP : 0;
+    bits |= machine.initialized && machine.position_known ? STEPPER_STATUS_POSITION_KNOWN : 0;
+    return bits;
+}
+
+stepper_event_t stepper_next_event(void) {
+    if (governor_take_estop_event()) {
+        machine.position_known = false;
+        return STEPPER_EVENT_ESTOP;
+    }
+    return STEPPER_EVENT_NONE;
+}

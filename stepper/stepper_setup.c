@@ -1,0 +1,164 @@
+// Configuration: INIT, axes, limits, spindle, and giving it all back. Context: main loop.
+#include "stepper/axis.h"
+#include "stepper/governor.h"
+#include "stepper/machine.h"
+#include "stepper/planner.h"
+#include "stepper/step_isr.h"
+
+static const char spindle_owner[] = "STEPPER spindle";
+static const char estop_owner[] = "STEPPER E-STOP";
+
+static void pass_pins_on(void) {
+    governor_pins_t pins = {
+        .enable = axis_enable_mask(),
+        .spindle = pins_mask(machine.spindle_gpio),
+        .spindle_inverted = machine.spindle_invert,
+        .estop_keeps_enabled = machine.config.estop_keeps_enabled,
+    };
+    uint32_t steps[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        steps[axis] = axis_step_mask(axis);
+        if (axes[axis].configured) {
+            pins.dir[axis] = pins_mask(axes[axis].config.dir_gpio);
+            pins.dir_inverted |= (uint32_t)axes[axis].config.dir_invert << axis;
+        }
+    }
+    hal_governor_lock();
+    step_isr_set_pins(steps);
+    governor_set_pins(&pins);
+    hal_governor_unlock();
+}
+
+static void reset_motion(void) {
+    const int32_t zero[AXIS_COUNT] = {0};
+    hal_tick_stop();
+    hal_governor_lock();
+    step_isr_setup(pins_mask(machine.config.estop_gpio), 0);
+    governor_reset(zero);
+    planner_reset(machine.config.blocks);
+    hal_governor_unlock();
+    machine.drops_seen = governor_drops();
+    planner_set_scale();
+    planner_set_position(zero);
+    planner_set_junction_deviation((float)STEPPER_JUNCTION_DEVIATION_MM);
+}
+
+err_t stepper_init(const stepper_init_t *config) {
+    if (machine.initialized) {
+        return err_raise(ERR_STEPPER_ALREADY_INITIALIZED, NULL);
+    }
+    if (config->estop_gpio != PINS_NONE) {
+        err_t err = pins_claim(config->estop_gpio, estop_owner);
+        if (err != ERR_OK) {
+            return err;
+        }
+        hal_pin_input(config->estop_gpio, HAL_PULL_UP);
+    }
+    machine.config = *config;
+    machine.initialized = true;
+    machine.position_known = false;
+    machine.idle = STEPPER_IDLE_HOLD;
+    reset_motion();
+    pass_pins_on();
+    return ERR_OK;
+}
+
+err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
+    err_t err = machine_check_at_rest();
+    if (err != ERR_OK) {
+        return err;
+    }
+    bool rescaled =
+        axes[axis].configured && axes[axis].config.steps_per_unit != config->steps_per_unit;
+    // Disarmed: new pins start with their driver off.
+    hal_governor_lock();
+    bool armed = governor_armed();
+    governor_disarm();
+    hal_governor_unlock();
+    err = axis_configure(axis, config);
+    if (err == ERR_OK) {
+        machine.position_known = machine.position_known && !rescaled;
+        pass_pins_on();
+        planner_set_scale();
+        machine_follow_motors();
+    }
+    if (armed) {
+        stepper_run(machine.idle);
+    }
+    return err;
+}
+
+double stepper_step_rate_limit(axis_id_t axis) {
+    return STEPPER_STEP_RATE_MAX_HZ * 60.0 / axes[axis].config.steps_per_unit;
+}
+
+err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        err = machine_check_axis(axis);
+    }
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (!(min_mm < max_mm)) {
+        return err_raise(ERR_LIMITS_ORDER, NULL);
+    }
+    axes[axis].min = min_mm;
+    axes[axis].max = max_mm;
+    axes[axis].limited = true;
+    return ERR_OK;
+}
+
+err_t stepper_spindle(uint8_t gpio, bool invert) {
+    err_t err = machine_check_at_rest();
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (gpio != machine.spindle_gpio) {
+        if (gpio != PINS_NONE && (err = pins_claim(gpio, spindle_owner)) != ERR_OK) {
+            return err;
+        }
+        if (machine.spindle_gpio != PINS_NONE) {
+            hal_pin_release(machine.spindle_gpio);
+            pins_disclaim(machine.spindle_gpio);
+        }
+    }
+    machine.spindle_gpio = gpio;
+    machine.spindle_invert = invert;
+    if (gpio != PINS_NONE) {
+        hal_pin_output(gpio, invert);
+    }
+    pass_pins_on();
+    return ERR_OK;
+}
+
+err_t stepper_junction(double deviation_mm) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        planner_set_junction_deviation((float)deviation_mm);
+    }
+    return err;
+}
+
+err_t stepper_close(void) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    stepper_stop();
+    while (governor_working()) {
+        hal_idle(hal_time_us() + 1000);
+    }
+    hal_governor_lock();
+    governor_emergency_stop(); // spindle off, drivers off, disarmed
+    hal_governor_unlock();
+    stepper_spindle(PINS_NONE, false);
+    axis_release_all();
+    if (machine.config.estop_gpio != PINS_NONE) {
+        hal_pin_release(machine.config.estop_gpio);
+        pins_disclaim(machine.config.estop_gpio);
+        machine.config.estop_gpio = PINS_NONE;
+    }
+    machine.initialized = false;
+    return ERR_OK;
+}
