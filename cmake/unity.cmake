@@ -32,13 +32,9 @@ function(unit_test source)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES")
     string(REPLACE "/" "_" target unit_${source})
     add_executable(${target} ${source}.c ${arg_SOURCES})
-    target_include_directories(${target} PRIVATE
-        ${CMAKE_SOURCE_DIR}
-        ${CMAKE_SOURCE_DIR}/firmware
-        ${CMAKE_SOURCE_DIR}/firmware/port/${STEPMITE_PLATFORM}
-    )
+    stepmite_our_code(${target})
     stepmite_link_parts(${target} ${arg_UNPARSED_ARGUMENTS})
-    target_link_libraries(${target} PRIVATE stepmite_flags unity m)
+    target_link_libraries(${target} PRIVATE unity m)
     add_test(NAME ${source} COMMAND ${target})
     set_tests_properties(${source} PROPERTIES TIMEOUT 60)
 endfunction()

@@ -1,0 +1,21 @@
+# stepmite_firmware_image(TARGET PART...): TARGET.elf and TARGET.uf2 in the top of the build folder.
+function(stepmite_firmware_image target)
+    add_executable(${target} $<TARGET_OBJECTS:stepmite_main>)
+    set_target_properties(${target} PROPERTIES LINKER_LANGUAGE C)
+    stepmite_link_parts(${target} ${ARGN})
+    target_link_libraries(${target} PRIVATE ${STEPMITE_SDK_LIBRARIES} pico_stdio_usb)
+    target_compile_definitions(${target} PRIVATE ${STEPMITE_SDK_DEFINITIONS})
+
+    # newlib's printf, so that numbers look the same on the board and on the host.
+    pico_set_printf_implementation(${target} compiler)
+
+    # main() on a stack of its own (rp2_stack.c), and an end of the image below the storage (rp2_storage.c).
+    set(storage_script ${CMAKE_SOURCE_DIR}/firmware/port/rp2/rp2_storage.ld)
+    target_link_options(${target} PRIVATE -Wl,--wrap=main ${storage_script})
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${storage_script})
+
+    # For `picotool info`; the version is in rp2_system.c.
+    pico_set_program_name(${target} "StepMite")
+    pico_set_program_description(${target} "4-axis motion controller with a BASIC prompt")
+    pico_add_extra_outputs(${target})
+endfunction()

@@ -1,0 +1,44 @@
+// Pins as plain inputs and outputs. The UART console's pins go to whoever wants them, and come back to
+// the console when both are free again. Context: main.
+#include "hal/hal.h"
+
+#include "hardware/gpio.h"
+
+#include "rp2_port.h"
+
+static uint32_t taken_from_uart; // the UART's pins that serve as plain ones now
+
+static void take(unsigned gpio) {
+    if (rp2_uart_has_pin(gpio)) {
+        taken_from_uart |= pins_mask(gpio);
+        rp2_uart_stop();
+    }
+}
+
+void hal_pin_output(unsigned gpio, bool level) {
+    take(gpio);
+    gpio_disable_pulls(gpio);
+    gpio_put(gpio, level);
+    gpio_set_dir(gpio, GPIO_OUT);
+    gpio_set_function(gpio, GPIO_FUNC_SIO); // last: the pad now gets level and driver at once
+}
+
+void hal_pin_input(unsigned gpio, hal_pull_t pull) {
+    take(gpio);
+    gpio_set_dir(gpio, GPIO_IN);
+    gpio_set_pulls(gpio, pull == HAL_PULL_UP, pull == HAL_PULL_DOWN);
+    gpio_set_function(gpio, GPIO_FUNC_SIO);
+}
+
+void hal_pin_release(unsigned gpio) {
+    gpio_set_dir(gpio, GPIO_IN);
+    gpio_put(gpio, false);
+    gpio_disable_pulls(gpio);
+    gpio_set_function(gpio, GPIO_FUNC_NULL);
+    if (rp2_uart_has_pin(gpio)) {
+        taken_from_uart &= ~pins_mask(gpio);
+        if (taken_from_uart == 0) {
+            rp2_uart_start();
+        }
+    }
+}

@@ -1,0 +1,68 @@
+// What the files of this port need of each other. Context: main loop unless said otherwise.
+#ifndef RP2_PORT_H
+#define RP2_PORT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Interrupt priorities, low numbers first. Between these two lies everything of the SDK, at 0x80.
+#define RP2_PRIORITY_TICK 0x00u
+#define RP2_PRIORITY_GOVERNOR 0xC0u
+
+// ---- Start-up, called by hal_init() ---------------------------------------------------------------
+void rp2_tick_init(void);
+void rp2_governor_init(void);
+void rp2_idle_init(void);
+void rp2_console_init(void);
+
+// ---- Faults ---------------------------------------------------------------------------------------
+
+// Takes note of why the board restarted, and starts the watchdog.
+void rp2_fault_init(void);
+
+// Tells the watchdog that the main loop is alive. To be called at least every RP2_FAULT_FEED_US.
+void rp2_fault_feed(void);
+#define RP2_FAULT_FEED_US 2000000u
+
+// A line about the last restart if a fault was the reason, else NULL. Any context.
+const char *rp2_fault_report(void);
+
+// Stores the reason and restarts the board at once. Any context.
+_Noreturn void rp2_fault_restart(uint32_t reason, uint32_t pc, uint32_t lr);
+
+// Called by the SDK's panic().
+_Noreturn void rp2_fault_panic(const char *format, ...);
+
+// The HardFault handler; the vector table has it by this name.
+void isr_hardfault(void);
+
+// ---- Stack ----------------------------------------------------------------------------------------
+
+// Makes running over the end of main's stack a fault.
+void rp2_stack_guard(void);
+
+// ---- UART console ---------------------------------------------------------------------------------
+
+void rp2_uart_start(void);
+void rp2_uart_stop(void);
+bool rp2_uart_running(void);
+size_t rp2_uart_read(uint8_t *bytes, size_t size);
+size_t rp2_uart_write(const uint8_t *bytes, size_t size); // takes what fits
+size_t rp2_uart_write_room(void);
+
+// True if `gpio` is one of the console's two pins.
+bool rp2_uart_has_pin(unsigned gpio);
+
+// ---- USB console ----------------------------------------------------------------------------------
+
+void rp2_usb_start(void);
+bool rp2_usb_connected(void); // a terminal has the port open (DTR)
+size_t rp2_usb_read(uint8_t *bytes, size_t size);
+size_t rp2_usb_write(const uint8_t *bytes, size_t size); // takes what fits
+size_t rp2_usb_write_room(void);
+
+// Implemented by the console: a terminal opened or closed the port. Context: USB interrupt.
+void rp2_console_on_usb_line(bool connected);
+
+#endif

@@ -1,0 +1,42 @@
+// The user's data: the last part of the flash chip. The image is linked so that it ends below
+// (rp2_storage.ld). Context: main.
+#include "hal/hal.h"
+
+#include <string.h>
+
+#include "hardware/flash.h"
+#include "hardware/sync.h"
+
+#include "rp2_port.h"
+
+#define STORAGE_START (PICO_FLASH_SIZE_BYTES - HAL_STORAGE_SIZE) // from the start of the chip
+static_assert(HAL_STORAGE_SECTOR == FLASH_SECTOR_SIZE, "sector");
+static_assert(HAL_STORAGE_PAGE == FLASH_PAGE_SIZE, "page");
+
+void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
+    memcpy(bytes, (const uint8_t *)XIP_BASE + STORAGE_START + offset, size);
+}
+
+// While the chip is written nothing may run from it, not even an interrupt: they all wait. A tick could
+// not, so the caller has to stop motion first.
+bool hal_storage_erase(uint32_t offset) {
+    if (hal_tick_running() || offset % HAL_STORAGE_SECTOR != 0 || offset >= HAL_STORAGE_SIZE) {
+        return false;
+    }
+    rp2_fault_feed();
+    uint32_t interrupts = save_and_disable_interrupts();
+    flash_range_erase(STORAGE_START + offset, HAL_STORAGE_SECTOR);
+    restore_interrupts(interrupts);
+    return true;
+}
+
+bool hal_storage_program(uint32_t offset, const void *page) {
+    if (hal_tick_running() || offset % HAL_STORAGE_PAGE != 0 || offset >= HAL_STORAGE_SIZE) {
+        return false;
+    }
+    rp2_fault_feed();
+    uint32_t interrupts = save_and_disable_interrupts();
+    flash_range_program(STORAGE_START + offset, page, HAL_STORAGE_PAGE);
+    restore_interrupts(interrupts);
+    return true;
+}

@@ -1,0 +1,119 @@
+// The console's serial port: UART0 on GP0 (out) and GP1 (in), 115200 baud 8N1, a ring each way.
+// Contexts: main, and uart_irq() in the UART's interrupt.
+#include "base/ring.h"
+#include "hal/hal.h"
+
+#include "hardware/gpio.h"
+#include "hardware/irq.h"
+#include "hardware/uart.h"
+
+#include "rp2_port.h"
+
+#define UART uart0
+#define UART_IRQ UART0_IRQ
+#define TX_GPIO 0u
+#define RX_GPIO 1u
+#define BAUD 115200u
+#define TX_SIZE 2048u
+#define RX_SIZE 2048u // 0.18 s of input while main is busy
+#define RX_ERROR_BITS (UART_UARTDR_BE_BITS | UART_UARTDR_PE_BITS | UART_UARTDR_FE_BITS)
+
+static struct {
+    ring_t tx; // written by main, read by the interrupt
+    ring_t rx; // written by the interrupt, read by main
+    uint8_t tx_bytes[TX_SIZE];
+    uint8_t rx_bytes[RX_SIZE];
+    bool running;
+} uart;
+
+// Context: the interrupt, or main with the interrupt off.
+static void send_from_ring(void) {
+    while (ring_used(&uart.tx) > 0 && uart_is_writable(UART)) {
+        uart_get_hw(UART)->dr = uart.tx_bytes[uart.tx.take_slot];
+        ring_take(&uart.tx);
+    }
+    uart_set_irq_enables(UART, true, ring_used(&uart.tx) > 0);
+}
+
+static void receive_to_ring(void) {
+    while (uart_is_readable(UART)) {
+        uint32_t received = uart_get_hw(UART)->dr;
+        // A byte with an error is noise (an unconnected cable, another speed), not input.
+        if ((received & RX_ERROR_BITS) == 0 && ring_free(&uart.rx) > 0) {
+            uart.rx_bytes[uart.rx.put_slot] = (uint8_t)received;
+            ring_put(&uart.rx);
+        }
+    }
+}
+
+static void uart_irq(void) {
+    receive_to_ring();
+    send_from_ring();
+    rp2_wake = true;
+}
+
+void rp2_uart_start(void) {
+    if (uart.running) {
+        return;
+    }
+    ring_reset(&uart.tx, TX_SIZE);
+    ring_reset(&uart.rx, RX_SIZE);
+    uart_init(UART, BAUD);
+    gpio_set_function(TX_GPIO, UART_FUNCSEL_NUM(UART, TX_GPIO));
+    gpio_set_function(RX_GPIO, UART_FUNCSEL_NUM(UART, RX_GPIO));
+    gpio_pull_up(RX_GPIO); // idle level if nothing is connected
+    irq_set_exclusive_handler(UART_IRQ, uart_irq);
+    uart_set_irq_enables(UART, true, false);
+    rp2_irq_on(UART_IRQ);
+    uart.running = true;
+}
+
+void rp2_uart_stop(void) {
+    if (!uart.running) {
+        return;
+    }
+    uart.running = false;
+    rp2_irq_off(UART_IRQ);
+    irq_remove_handler(UART_IRQ, uart_irq);
+    uart_deinit(UART);
+    static const unsigned gpios[] = {TX_GPIO, RX_GPIO};
+    for (size_t i = 0; i < COUNT_OF_ARRAY(gpios); i++) {
+        gpio_disable_pulls(gpios[i]);
+        gpio_set_function(gpios[i], GPIO_FUNC_NULL);
+    }
+}
+
+bool rp2_uart_running(void) {
+    return uart.running;
+}
+
+bool rp2_uart_has_pin(unsigned gpio) {
+    return gpio == TX_GPIO || gpio == RX_GPIO;
+}
+
+size_t rp2_uart_read(uint8_t *bytes, size_t size) {
+    size_t count = 0;
+    while (uart.running && count < size && ring_used(&uart.rx) > 0) {
+        bytes[count++] = uart.rx_bytes[uart.rx.take_slot];
+        ring_take(&uart.rx);
+    }
+    return count;
+}
+
+size_t rp2_uart_write_room(void) {
+    return uart.running ? ring_free(&uart.tx) : 0;
+}
+
+size_t rp2_uart_write(const uint8_t *bytes, size_t size) {
+    size_t count = 0;
+    while (count < size && rp2_uart_write_room() > 0) {
+        uart.tx_bytes[uart.tx.put_slot] = bytes[count++];
+        ring_put(&uart.tx);
+    }
+    if (count > 0) {
+        rp2_irq_off(UART_IRQ);
+        send_from_ring();
+        rp2_irq_on(UART_IRQ);
+    }
+    return count;
+}

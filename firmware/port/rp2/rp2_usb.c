@@ -1,0 +1,70 @@
+// The console's USB serial port. The SDK's stdio_usb brings the descriptors, the low-priority interrupt
+// that serves TinyUSB, and picotool's reset; bytes pass by its stdio and go in blocks straight to and from
+// TinyUSB's buffers, with that interrupt held off meanwhile. Contexts: main; tud_...() in the interrupt.
+#include "hal/hal.h"
+
+#include "pico/bootrom.h"
+#include "pico/stdio_usb.h"
+#include "tusb.h"
+
+#include "rp2_port.h"
+
+#define BOOTLOADER_BAUD 1200u // opening the port at this speed asks for the UF2 boot loader
+
+void rp2_usb_start(void) {
+    stdio_usb_init();
+}
+
+bool rp2_usb_connected(void) {
+    return tud_cdc_connected();
+}
+
+size_t rp2_usb_read(uint8_t *bytes, size_t size) {
+    if (tud_cdc_available() == 0) {
+        return 0;
+    }
+    rp2_irq_off(RP2_USB_IRQ);
+    size_t count = tud_cdc_read(bytes, size);
+    rp2_irq_on(RP2_USB_IRQ);
+    return count;
+}
+
+size_t rp2_usb_write_room(void) {
+    return rp2_usb_connected() ? tud_cdc_write_available() : 0;
+}
+
+size_t rp2_usb_write(const uint8_t *bytes, size_t size) {
+    rp2_irq_off(RP2_USB_IRQ);
+    size_t count = rp2_usb_connected() ? tud_cdc_write(bytes, size) : 0;
+    tud_cdc_write_flush();
+    rp2_irq_on(RP2_USB_IRQ);
+    return count;
+}
+
+// ---- Called by TinyUSB ----------------------------------------------------------------------------
+
+void tud_cdc_rx_cb(uint8_t itf) {
+    (void)itf;
+    rp2_wake = true;
+}
+
+void tud_cdc_tx_complete_cb(uint8_t itf) {
+    (void)itf;
+    rp2_wake = true;
+}
+
+void tud_cdc_line_state_cb(uint8_t itf, bool dtr, bool rts) {
+    (void)itf;
+    (void)rts;
+    tud_cdc_write_clear(); // what nobody read is not for the next who comes
+    rp2_console_on_usb_line(dtr);
+    rp2_wake = true;
+}
+
+void tud_cdc_line_coding_cb(uint8_t itf, const cdc_line_coding_t *line_coding) {
+    (void)itf;
+    // Some programs try every speed on every port they find; a job under way is not lost to that.
+    if (line_coding->bit_rate == BOOTLOADER_BAUD && !hal_tick_running()) {
+        rom_reset_usb_boot(0, 0);
+    }
+}
