@@ -119,6 +119,10 @@ class FakeBoard:
         upper = text.upper()
         if match := re.fullmatch(r'STEPPER GS "(.*)"', text):
             return self._gcode(match[1])
+        if upper == "STEPPER STATUS":
+            self._print("Junction deviation: 0.05 mm, arc tolerance: 0.05 mm\r\n")
+            self._print("X motion: 80 steps/mm, max 3000 mm/min, 250 mm/s^2\r\n")
+            return None
         if upper == "STEPPER RUN":
             self.runs += 1
             self.armed = True

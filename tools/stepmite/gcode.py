@@ -135,15 +135,19 @@ class Reader:
                 raise ValueError("G4 without P")
             blocks.append(Block("dwell", line_number, self.position, dwell_s=values["P"] / 1000))
         elif once == "G92":
+            if not axes:
+                raise ValueError("G92 without an axis")
             self._shift(axes)
+        elif axes and blocks:
+            raise ValueError("a move and M3 or M5 need a line each")
         elif axes:
             blocks.append(self._move(line_number, axes))
         return blocks
 
     def _shift(self, axes: dict[str, float]) -> None:
         for index, letter in enumerate(AXES):
-            if letter in axes or not axes:
-                self.offset[index] = self.position[index] - axes.get(letter, 0.0)
+            if letter in axes:
+                self.offset[index] = self.position[index] - axes[letter]
 
     def _move(self, line_number: int, axes: dict[str, float]) -> Block:
         if self.motion is None:
