@@ -180,3 +180,25 @@ def test_axis_pins_are_read_and_refused():
     for text in ("X", "X=2", "X=2,3,4,5", "X=a,b", "X=2,3,-1", "=2,3"):
         with pytest.raises(TraceError):
             AxisPins.parse(text)
+
+
+SHARP = ["G1 F3000 X30", "Y30", "X0", "Y0"]
+
+
+def corner_speeds(machine):
+    edges, corners = edges_of(SHARP, machine)
+    traces = traces_of(edges)
+    blocks = oracle.split_blocks(traces, corners)
+    return [oracle.exit_speed(traces, blocks, index, 500.0) for index in range(3)]
+
+
+def test_exit_speed_of_a_clean_corner():
+    for found in corner_speeds(Machine()):
+        # 90 degrees, 0.02 mm, 500 mm/s^2: 4.91 mm/s, and the last step is half a step early.
+        assert found.speed <= np.sqrt(4.92**2 + 2 * 500 * found.before_corner) + found.error
+        assert found.speed > 4.9 - found.error
+
+
+def test_corner_taken_too_fast_is_caught():
+    for found in corner_speeds(Machine(junction_deviation_mm=0.06)):
+        assert found.speed > np.sqrt(4.92**2 + 2 * 500 * found.before_corner) + found.error

@@ -61,7 +61,7 @@ class Blocks:
     """Last step of any axis in the block."""
 
 
-def split_blocks(traces: list[AxisTrace], targets: Ints) -> Blocks:
+def split_blocks(traces: list[AxisTrace], targets: Ints, overlap_ns: int = 1_500_000) -> Blocks:
     """Cut a trace at the commanded corners; TraceError if it does not run through them in order.
 
     `targets` are the corners in steps, shape (blocks + 1, axes), the start first; corners in which
@@ -84,8 +84,7 @@ def split_blocks(traces: list[AxisTrace], targets: Ints) -> Blocks:
         first = last - np.abs(moves[used, axis]) + 1
         begin[used] = np.minimum(begin[used], trace.step_ns[first])
         end[used] = np.maximum(end[used], trace.step_ns[last])
-    # An axis may make its last step of a block in the tick in which another begins the next one.
-    late = np.flatnonzero(end[:-1] > begin[1:] + TICK_NS)
+    late = np.flatnonzero(end[:-1] > begin[1:] + overlap_ns)
     if len(late):
         raise TraceError(f"block {late[0] + 1} begins before block {late[0]} has ended")
     return Blocks(targets, begin, end)
@@ -94,14 +93,19 @@ def split_blocks(traces: list[AxisTrace], targets: Ints) -> Blocks:
 def block_deviation(traces: list[AxisTrace], blocks: Blocks) -> Floats:
     """Return for each block the largest distance between trace and commanded line, in steps.
 
-    Each axis is measured in its own steps. Only moments within the block count, so a detour along a
-    neighbouring block is not forgiven.
+    Each axis is measured in its own steps. A moment belongs to its block or, near the corners, to a
+    neighbour; a detour along a distant part of the path is not forgiven.
     """
     path = merge_relative(traces, blocks.targets[0])
+    points = path.steps.astype(float)
+    corners = blocks.targets.astype(float)
     owner = np.searchsorted(blocks.begin_ns, path.time_ns, side="right") - 1
-    a = blocks.targets[owner].astype(float)
-    b = blocks.targets[owner + 1].astype(float)
-    distance = point_to_segment(path.steps.astype(float), a, b)
+    distance = np.full(len(points), np.inf)
+    for shift in (-1, 0, 1):
+        block = np.clip(owner + shift, 0, len(corners) - 2)
+        distance = np.minimum(
+            distance, point_to_segment(points, corners[block], corners[block + 1])
+        )
     worst = np.zeros(len(blocks.begin_ns))
     np.maximum.at(worst, owner, distance)
     return worst
@@ -178,3 +182,50 @@ def extremes(
     acceleration = np.abs(after - 2 * here + before).max() / h**2
     slip = speed * TICK_NS / 1e9
     return Extremes(float(speed), float(acceleration), slip / h, 2 * slip / h**2)
+
+
+@dataclass(frozen=True)
+class ExitSpeed:
+    """Speed along the path at the last step of a block, before the corner."""
+
+    speed: float
+    """Units/s."""
+    error: float
+    """Largest error of the estimate, units/s, for the acceleration given to exit_speed."""
+    before_corner: float
+    """How far before the corner the last step can lie, in units along the path."""
+
+
+def exit_speed(
+    traces: list[AxisTrace],
+    blocks: Blocks,
+    index: int,
+    acceleration: float,
+    window_ns: tuple[int, int] = (4_000_000, 12_000_000),
+) -> ExitSpeed | None:
+    """Measure how fast block `index` is left; None if it is too short or too slow to tell.
+
+    A parabola through three positions, one window h apart, of the axis that makes the most steps.
+    Exact for a constant acceleration; if the acceleration sets in within the window the error is at
+    most a quarter of `acceleration` * h, to which the time grid adds 2 * speed * tick / h.
+    """
+    move = blocks.targets[index + 1] - blocks.targets[index]
+    axis = int(np.abs(move).argmax())
+    trace = traces[axis]
+    begin, end = blocks.begin_ns[index], blocks.end_ns[index]
+    mine = trace.step_ns[(trace.step_ns >= begin) & (trace.step_ns <= end)]
+    if len(mine) < 6 or mine[-1] - mine[-6] > window_ns[1]:
+        return None
+    window = max(int(mine[-1] - mine[-6]), window_ns[0])
+    if mine[-1] - begin < 2 * window:
+        return None
+    moments = mine[-1] - np.array([2, 1, 0]) * window
+    early, middle, last = trace.position_at(moments)
+    scales = np.array([one.pins.steps_per_unit for one in traces])
+    units = move / scales
+    length = float(np.sqrt((units[:3] ** 2).sum())) or abs(float(units[3]))
+    per_step = length / abs(int(move[axis]))
+    h = window / 1e9
+    speed = abs(3 * last - 4 * middle + early) / (2 * h) * per_step
+    error = acceleration * h / 4 + 2 * speed * TICK_NS / window
+    return ExitSpeed(float(speed), float(error), per_step)

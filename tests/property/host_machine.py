@@ -1,0 +1,125 @@
+"""Runs G-code through the host build of the firmware and brings back what the motors did.
+
+The host program reads the G-code from its standard input with a small BASIC program, which waits
+for room in the queue. Everything is virtual time, so a long job takes as long as computing it.
+"""
+
+import re
+import subprocess
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from stepmite.gcode import AXES, read_blocks, target_steps
+from stepmite.plan import Machine
+from stepmite.trace import AxisPins, AxisTrace, Edges, axis_trace
+
+HOST_PROGRAM = Path(__file__).parents[2] / "build" / "host" / "stepmite"
+
+RECEIVER = """\
+DO
+  LINE INPUT code$
+  IF code$ = "END" THEN EXIT DO
+  DO WHILE PEEK(STEPPER BUFFER) < 2
+    PAUSE 5
+  LOOP
+  STEPPER GS code$
+LOOP
+STEPPER RUN
+DO WHILE PEEK(STEPPER ACTIVE) = 1
+  PAUSE 5
+LOOP
+STEPPER STATUS
+"""
+
+
+@dataclass(frozen=True)
+class Setup:
+    """The machine of a test; tuples in the order X Y Z A."""
+
+    steps_per_unit: tuple = (80.0, 80.0, 400.0, 10.0)
+    max_velocity_per_min: tuple = (6000.0, 6000.0, 3000.0, 6000.0)
+    max_acceleration: tuple = (500.0, 500.0, 500.0, 500.0)
+    inverted: tuple = (False, True, False, False)
+    blocks: int = 1024
+    queue_first: bool = False
+    """Arm only when all is queued, so that the plan does not depend on the pace of the queuing."""
+    extra: tuple = field(default=())
+    """More BASIC lines before the first move."""
+
+    def pins(self) -> list[AxisPins]:
+        return [
+            AxisPins(name, 2 + 2 * i, 3 + 2 * i, self.inverted[i], self.steps_per_unit[i])
+            for i, name in enumerate(AXES)
+        ]
+
+    def machine(self) -> Machine:
+        return Machine(
+            tuple(v / 60 for v in self.max_velocity_per_min), tuple(self.max_acceleration)
+        )
+
+    def program(self) -> str:
+        lines = [f"STEPPER INIT ,{self.blocks}"]
+        for i, pin in enumerate(self.pins()):
+            lines.append(
+                f"STEPPER AXIS {pin.name},GP{pin.step_gpio},GP{pin.dir_gpio},,"
+                f"{int(pin.inverted)},{pin.steps_per_unit:.9g},"
+                f"{self.max_velocity_per_min[i]:.9g},{self.max_acceleration[i]:.9g}"
+            )
+        lines += [*self.extra, "STEPPER POSITION HOME"]
+        if not self.queue_first:
+            lines.append("STEPPER RUN")
+        return "\n".join(lines) + "\n" + RECEIVER
+
+
+@dataclass(frozen=True)
+class Result:
+    setup: Setup
+    traces: list[AxisTrace]
+    corners: np.ndarray
+    """Commanded corners in steps, the start first, without moves that lead nowhere."""
+    output: str
+
+    def end_steps(self) -> list[int]:
+        """Position by the edges."""
+        return [trace.end_steps() for trace in self.traces]
+
+    def reported_steps(self) -> list[int]:
+        """Position as STEPPER STATUS says it."""
+        return [int(n) for n in re.findall(r"^[XYZA]: .*\((-?\d+) steps\)", self.output, re.M)]
+
+    def motion_s(self) -> float:
+        """Time from the first to the last step."""
+        first = min(trace.step_ns[0] for trace in self.traces if len(trace.step_ns))
+        last = max(trace.step_ns[-1] for trace in self.traces if len(trace.step_ns))
+        return (last - first) / 1e9
+
+
+def corners_of(lines, steps_per_unit) -> np.ndarray:
+    corners = [(0, 0, 0, 0)]
+    for block in read_blocks(lines):
+        steps = target_steps(block.target, steps_per_unit)
+        if block.kind == "move" and steps != corners[-1]:
+            corners.append(steps)
+    return np.array(corners)
+
+
+def run(folder: Path, lines: list[str], setup: Setup | None = None) -> Result:
+    """Carry out G-code lines; fails the test if the firmware refuses one."""
+    setup = setup or Setup()
+    program, trace = folder / "receiver.bas", folder / "edges.csv"
+    program.write_text(setup.program())
+    done = subprocess.run(
+        [HOST_PROGRAM, "--virtual", "--trace", trace, program],
+        input="\r".join([*lines, "END", ""]),
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    edges = Edges.read(trace)
+    trace.unlink()
+    traces = [axis_trace(edges, pin) for pin in setup.pins()]
+    return Result(setup, traces, corners_of(lines, setup.steps_per_unit), done.stdout)
