@@ -59,14 +59,14 @@ static float remaining(void) {
 static void target_at(uint64_t progress, int64_t target[AXIS_COUNT]) {
     uint32_t fraction = (uint32_t)(progress >> 32);
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t delta = governor.block->move.target[axis] - governor.start[axis];
-        target[axis] = ((int64_t)governor.start[axis] << 32) + delta * fraction;
+        int64_t delta = (int64_t)governor.block->move.target[axis] - governor.start[axis];
+        target[axis] = governor.start[axis] * STEP_ONE + delta * fraction;
     }
 }
 
 static void target_at_end(int64_t target[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        target[axis] = (int64_t)governor.block->move.target[axis] << 32;
+        target[axis] = governor.block->move.target[axis] * STEP_ONE;
     }
 }
 

@@ -7,6 +7,9 @@
 
 #define SEGMENTS 64u
 
+// Exact positions count in 2^-32 of a step.
+#define STEP_ONE ((int64_t)1 << 32)
+
 // Phase and rate are fractions of a step in 2^-32. Each tick adds the rate to the phase; a carry is a
 // step. The tick takes the axes two at a time, hence the order in memory: phases of X and Y, rates of
 // X and Y, then Z and A.

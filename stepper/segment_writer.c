@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#define HALF_STEP ((int64_t)1 << 31)
+#define HALF_STEP (STEP_ONE / 2)
 #define RATE_MAX ((uint32_t)1 << 31) // a step in every second tick
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis round.
 #define NO_DISTANCE ((int64_t)1 << 20)
@@ -25,7 +25,7 @@ static struct {
 
 void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.position[axis] = (int64_t)steps[axis] << 32;
+        writer.position[axis] = steps[axis] * STEP_ONE;
     }
     writer.late_ticks = 0.0f;
 }
@@ -34,6 +34,11 @@ void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t invert
     memcpy(writer.dir, dir, sizeof writer.dir);
     writer.dir_inverted = inverted;
     writer.negative = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        bool low = (inverted >> axis) & 1;
+        hal_pins_set(low ? 0 : dir[axis]);
+        hal_pins_clear(low ? dir[axis] : 0);
+    }
 }
 
 static int32_t motor_steps(axis_id_t axis) {
@@ -48,7 +53,7 @@ void segment_writer_end_steps(int32_t steps[AXIS_COUNT]) {
 
 void segment_writer_settle(void) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.position[axis] = (int64_t)motor_steps(axis) << 32;
+        writer.position[axis] = motor_steps(axis) * STEP_ONE;
     }
     writer.late_ticks = 0.0f;
 }
@@ -108,9 +113,9 @@ static uint32_t reversing_axes(const int64_t target[AXIS_COUNT]) {
     uint32_t reversing = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         int64_t distance = distance_to(axis, target);
-        bool negative = (writer.negative >> axis) & 1;
-        if (distance != 0 && (distance < 0) != negative) {
-            reversing |= 1u << axis;
+        if (distance != 0) {
+            uint32_t negative = distance < 0 ? 1u << axis : 0;
+            reversing |= negative ^ (writer.negative & 1u << axis);
         }
     }
     return reversing;
@@ -119,7 +124,7 @@ static uint32_t reversing_axes(const int64_t target[AXIS_COUNT]) {
 static void switch_directions(segment_t *segment, uint32_t reversing) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if ((reversing >> axis) & 1) {
-            bool high = ((writer.negative ^ writer.dir_inverted) >> axis & 1) == 0;
+            bool high = (((writer.negative ^ writer.dir_inverted) >> axis) & 1) == 0;
             segment->pins_set |= high ? writer.dir[axis] : 0;
             segment->pins_clear |= high ? 0 : writer.dir[axis];
         }

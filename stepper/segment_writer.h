@@ -5,10 +5,11 @@
 
 #include "stepper/segment.h"
 
-// Stands at `steps`, all directions up.
+// Stands at `steps`.
 void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 
-// `inverted`: bit n set if the direction pin of axis n is low when it counts up.
+// Takes these direction pins and sets them all to up. At rest only. `inverted`: bit n set if the
+// direction pin of axis n is low when it counts up.
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
 
 // Goes to `target` (2^-32 steps) within `ticks`. Rounding of the ticks is made up for in the next

@@ -30,7 +30,11 @@ err_t err_raise(err_t code, const char *detail_format, ...) {
         vsnprintf(detail, sizeof detail, detail_format, args);
         va_end(args);
     }
-    snprintf(err_text_now, sizeof err_text_now, "%.*s%s%s", (int)(slot - text), text, detail, slot + 1);
+    int length = snprintf(err_text_now, sizeof err_text_now, "%.*s%s%s", (int)(slot - text), text,
+                          detail, slot + 1);
+    if (length >= (int)sizeof err_text_now) {
+        memcpy(err_text_now + sizeof err_text_now - sizeof "...", "...", sizeof "...");
+    }
     return code;
 }
 

@@ -1,0 +1,182 @@
+// G-code lines: spacing, comments, modal state, combinations, refusals that change nothing.
+#include <stdio.h>
+#include <string.h>
+#include <unity.h>
+
+#include "bench.h"
+#include "gcode/gcode.h"
+
+void setUp(void) {
+    bench_start_with(NULL, STEPPER_BLOCKS_MAX, false);
+    gcode_reset();
+}
+
+void tearDown(void) {
+    bench_end();
+}
+
+static err_t line(const char *text) {
+    return gcode_line(text, strlen(text));
+}
+
+static void check_ok(const char *text) {
+    err_t err = line(text);
+    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, err, err == ERR_OK ? text : err_message());
+}
+
+static void check_refused(const char *text, const char *message) {
+    double before[AXIS_COUNT];
+    double after[AXIS_COUNT];
+    uint32_t slots = stepper_blocks_free();
+    stepper_target(before);
+    TEST_ASSERT_NOT_EQUAL_MESSAGE(ERR_OK, line(text), text);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(message, err_message(), text);
+    stepper_target(after);
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(before, after, AXIS_COUNT);
+    TEST_ASSERT_EQUAL_UINT32(slots, stepper_blocks_free());
+}
+
+static void check_target(double x, double y, double z, double a) {
+    double target[AXIS_COUNT];
+    stepper_target(target);
+    const double expected[AXIS_COUNT] = {x, y, z, a};
+    TEST_ASSERT_EQUAL_DOUBLE_ARRAY(expected, target, AXIS_COUNT);
+}
+
+static void test_words_in_any_order_and_spacing(void) {
+    check_ok("G1X1Y2F600");
+    check_target(1, 2, 0, 0);
+    check_ok("f 300  x- 2.5 g01 , y+3");
+    check_target(-2.5, 3, 0, 0);
+    check_ok("\tz.5\tX1.");
+    check_target(1, 3, 0.5, 0);
+    check_ok("Y0X10"); // not hexadecimal
+    check_target(10, 0, 0.5, 0);
+    check_ok("G0A-90");
+    check_target(10, 0, 0.5, -90);
+}
+
+static void test_comments(void) {
+    check_ok("");
+    check_ok("   ");
+    check_ok("; all of it");
+    check_ok("(alone)");
+    check_ok("' BASIC's own");
+    check_target(0, 0, 0, 0);
+    check_ok("G1 (fast) X1 (to the right) F600 ; X9");
+    check_ok("Y1 ' and back Y9");
+    check_ok("Y2 (never closed X9");
+    check_ok("Y(in between)3");
+    check_target(1, 3, 0, 0);
+}
+
+static void test_modes_stay(void) {
+    check_ok("F600");
+    check_ok("G1");
+    check_ok("X1");
+    check_ok("G91");
+    check_ok("X1 Y1");
+    check_ok("X1");
+    check_target(3, 1, 0, 0);
+    check_ok("G90 X1");
+    check_target(1, 1, 0, 0);
+    check_ok("G0");
+    check_ok("X5");
+    check_target(5, 1, 0, 0);
+}
+
+static void test_offsets(void) {
+    check_ok("G0 X50");
+    check_ok("G92 X0 Y-1");
+    TEST_ASSERT_EQUAL_DOUBLE(50, gcode_offset(AXIS_X));
+    check_ok("G1 X10 Y0 F600");
+    check_target(60, 1, 0, 0);
+    check_ok("G91 X1");
+    check_target(61, 1, 0, 0);
+    gcode_clear_offsets();
+    check_ok("G90 X10");
+    check_target(10, 1, 0, 0);
+}
+
+static void test_refusals_name_their_reason(void) {
+    check_refused("X10", "No motion mode - start with G0 or G1");
+    check_refused("G1 X10", "Feedrate not set");
+    check_refused("G1X10Y0X5 F100", "X given twice");
+    check_refused("G1 X F100", "Missing value for X");
+    check_refused("G1 X--1", "Missing value for X");
+    check_refused("G1 X1 F0", "F: 0 is invalid (valid is above 0 to 1e+09)");
+    check_refused("G1 X1 F-5", "F: -5 is invalid (valid is above 0 to 1e+09)");
+    check_refused("G1 X1 E5 F100", "Unknown parameter E");
+    check_refused("G2 X1", "Unsupported code G2");
+    check_refused("G92.1", "Unsupported code G92.1");
+    check_refused("G-1", "Unsupported code G-1");
+    check_refused("M30", "Unsupported code M30");
+    check_refused("G0 G1 X1", "Two motion modes in one line");
+    check_refused("G90 G91", "Two distance modes in one line");
+    check_refused("G4", "G4 requires P value");
+    check_refused("G4 P-1", "P: -1 is invalid (valid is 0 to 86400000)");
+    check_refused("G4 P1 X1", "Motion, G4, G28, G92, M3 and M5 need a line each");
+    check_refused("M3 X1", "Motion, G4, G28, G92, M3 and M5 need a line each");
+    check_refused("M3 M5", "Motion, G4, G28, G92, M3 and M5 need a line each");
+    check_refused("G0 X1 P5", "P only valid with G4");
+    check_refused("G92", "G92 requires an axis value");
+    check_refused("G28", "Homing (G28) is not available yet - use STEPPER POSITION");
+    check_refused("#5", "Unexpected # in G-code");
+    check_refused("\x80", "Unexpected byte 128 in G-code");
+    check_refused("G0 X1e99999999", "Unknown parameter E"); // no exponents in G-code
+    check_refused("G0 X99999999999", "X position is too far from zero for its steps per unit");
+}
+
+static void test_a_refused_line_leaves_the_modes(void) {
+    check_ok("G1 F600 X1");
+    check_refused("G0 G91 F100 X1 Q5", "Unknown parameter Q");
+    check_ok("X2"); // still G90
+    check_target(2, 0, 0, 0);
+}
+
+static void test_too_many_words(void) {
+    char text[200] = "";
+    for (int i = 0; i < GCODE_WORDS_MAX + 1; i++) {
+        strcat(text, "X1");
+    }
+    check_refused(text, "Too many words in G-code line");
+}
+
+static void test_full_queue_refuses_and_keeps_the_modes(void) {
+    stepper_estop(); // disarmed: the queue only fills
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
+    check_ok("G1 F600 G91");
+    while (stepper_blocks_free() > 0) {
+        check_ok("X0.1");
+    }
+    check_refused("G90 G0 X5", "G-code buffer full");
+    stepper_run(STEPPER_IDLE_HOLD);
+    while (stepper_blocks_free() == 0) {
+        bench_wait_us(1000);
+    }
+    check_ok("X0.1"); // still relative
+    check_target(102.5, 0, 0, 0);
+    bench_finish(100);
+    TEST_ASSERT_EQUAL_INT64(8200, bench.motors[AXIS_X].position_steps);
+}
+
+static void test_dwell_and_spindle_lines(void) {
+    check_ok("G4 P250");
+    check_ok("M3");
+    check_ok("m05");
+    TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.25, bench_finish(1));
+}
+
+int main(void) {
+    UNITY_BEGIN();
+    RUN_TEST(test_words_in_any_order_and_spacing);
+    RUN_TEST(test_comments);
+    RUN_TEST(test_modes_stay);
+    RUN_TEST(test_offsets);
+    RUN_TEST(test_refusals_name_their_reason);
+    RUN_TEST(test_a_refused_line_leaves_the_modes);
+    RUN_TEST(test_too_many_words);
+    RUN_TEST(test_full_queue_refuses_and_keeps_the_modes);
+    RUN_TEST(test_dwell_and_spindle_lines);
+    return UNITY_END();
+}
