@@ -79,6 +79,8 @@ class Result:
     traces: list[AxisTrace]
     corners: np.ndarray
     """Commanded corners in steps, the start first, without moves that lead nowhere."""
+    targets: np.ndarray
+    """The same corners in mm and degrees, as commanded."""
     output: str
 
     def end_steps(self) -> list[int]:
@@ -96,13 +98,15 @@ class Result:
         return (last - first) / 1e9
 
 
-def corners_of(lines, steps_per_unit) -> np.ndarray:
-    corners = [(0, 0, 0, 0)]
+def corners_of(lines, steps_per_unit) -> tuple[np.ndarray, np.ndarray]:
+    """Return the corners in steps and in units, without moves of no step."""
+    corners, targets = [(0, 0, 0, 0)], [(0.0, 0.0, 0.0, 0.0)]
     for block in read_blocks(lines):
         steps = target_steps(block.target, steps_per_unit)
         if block.kind == "move" and steps != corners[-1]:
             corners.append(steps)
-    return np.array(corners)
+            targets.append(block.target)
+    return np.array(corners), np.array(targets)
 
 
 def run(folder: Path, lines: list[str], setup: Setup | None = None) -> Result:
@@ -122,4 +126,4 @@ def run(folder: Path, lines: list[str], setup: Setup | None = None) -> Result:
     edges = Edges.read(trace)
     trace.unlink()
     traces = [axis_trace(edges, pin) for pin in setup.pins()]
-    return Result(setup, traces, corners_of(lines, setup.steps_per_unit), done.stdout)
+    return Result(setup, traces, *corners_of(lines, setup.steps_per_unit), done.stdout)

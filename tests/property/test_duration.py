@@ -22,13 +22,13 @@ def test_circle_of_360_chords(tmp_path):
     assert run(tmp_path, lines, QUEUED).motion_s() == pytest.approx(2.61, rel=0.03)
 
 
-@pytest.mark.parametrize("blocks", [1, 2, 32])
-def test_small_queues_are_slower_but_arrive(tmp_path, blocks):
+@pytest.mark.parametrize(("blocks", "at_least_s"), [(1, 5.0), (4, 2.5), (32, 2.08)])
+def test_small_queues_are_slower_but_arrive(tmp_path, blocks, at_least_s):
     lines = ["G90 G1 F3000"] + [f"X{n * 0.5:.1f}" for n in range(1, 201)]
     # One slot: nothing to look ahead at, each move starts and ends at rest.
     result = run(tmp_path, lines, Setup(blocks=blocks))
     assert result.end_steps() == [8000, 0, 0, 0]
-    assert result.motion_s() > 2.09
+    assert result.motion_s() > at_least_s
 
 
 def test_the_plan_on_the_pc_tells_the_time(tmp_path):

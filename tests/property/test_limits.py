@@ -96,7 +96,7 @@ def test_speed_and_acceleration_of_every_axis_stay_within_their_limits(moved):
 def test_corners_are_passed_no_faster_than_junction_deviation_allows(moved):
     blocks = oracle.split_blocks(moved.traces, moved.corners)
     machine = moved.setup.machine()
-    moves = np.diff(moved.corners, axis=0) / np.array(moved.setup.steps_per_unit)
+    moves = np.diff(moved.targets, axis=0)
     directions = [tuple(move / (math.hypot(*move[:3]) or abs(move[3]))) for move in moves]
     seen = 0
     for index in range(len(moves) - 1):

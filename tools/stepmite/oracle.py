@@ -160,28 +160,33 @@ class Extremes:
 def extremes(
     trace: AxisTrace, begin_ns: int, end_ns: int, window_ns: int = 25_000_000
 ) -> Extremes | None:
-    """Measure one axis between two times; None if they are less than two windows apart.
+    """Measure one axis between two times; None if it has no steps two windows apart there.
 
-    Speed is the difference of the position over one window h, acceleration the second difference
-    over two: both are means of the true value, so neither can exceed its true maximum. What the
-    estimator adds comes from the time grid alone: a step is seen up to one tick late, which moves
-    the position by e = speed * tick at most, half of it either way around its mean. The errors
-    given are e/h for the speed and 2e/h^2 for the acceleration. Straight lines between steps add
-    less than the acceleration times the square of the step interval and only make the estimate
-    smaller.
+    The axis must not turn round in between. Takes triples of steps that lie one window or a little
+    more apart: speed is the first, acceleration the second divided difference. Both are weighted
+    means of the true value, so neither can exceed its true maximum, however far apart the steps
+    are. What the estimator adds comes from the time grid alone: a step is seen up to one tick late,
+    which moves the position by e = speed * tick, half of it either way around its mean. With the
+    window h the errors are at most e/h for the speed and 2e/h^2 for the acceleration.
     """
-    if end_ns - begin_ns < 2 * window_ns or len(trace.step_ns) < 2:
+    first, stop = np.searchsorted(trace.step_ns, [begin_ns, end_ns + 1])
+    times = trace.step_ns[first:stop]
+    before = np.searchsorted(times, times - window_ns, side="right") - 1
+    after = np.searchsorted(times, times + window_ns, side="left")
+    here = np.flatnonzero((before >= 0) & (after < len(times)))
+    if len(here) == 0:
         return None
-    middle = np.arange(begin_ns + window_ns, end_ns - window_ns + 1, 1_000_000)
     scale = trace.pins.steps_per_unit
-    before, here, after = (
-        trace.position_at(middle + shift) / scale for shift in (-window_ns, 0, window_ns)
-    )
+    left_s = (times[here] - times[before[here]]) / 1e9
+    right_s = (times[after[here]] - times[here]) / 1e9
+    left = (here - before[here]) / scale / left_s
+    right = (after[here] - here) / scale / right_s
+    acceleration = np.abs(right - left) / ((left_s + right_s) / 2)
+    hardest = int(acceleration.argmax())
     h = window_ns / 1e9
-    speed = max(np.abs(here - before).max(), np.abs(after - here).max()) / h
-    acceleration = np.abs(after - 2 * here + before).max() / h**2
-    slip = speed * TICK_NS / 1e9
-    return Extremes(float(speed), float(acceleration), slip / h, 2 * slip / h**2)
+    speed = float(max(left.max(), right.max()))
+    slip = float(max(left[hardest], right[hardest])) * TICK_NS / 1e9
+    return Extremes(speed, float(acceleration[hardest]), speed * TICK_NS / 1e9 / h, 2 * slip / h**2)
 
 
 @dataclass(frozen=True)
@@ -205,9 +210,11 @@ def exit_speed(
 ) -> ExitSpeed | None:
     """Measure how fast block `index` is left; None if it is too short or too slow to tell.
 
-    A parabola through three positions, one window h apart, of the axis that makes the most steps.
-    Exact for a constant acceleration; if the acceleration sets in within the window the error is at
-    most a quarter of `acceleration` * h, to which the time grid adds 2 * speed * tick / h.
+    A parabola through the last step of the axis that makes the most steps and two steps before it,
+    one window h or a little more apart; h is the time of the last five steps, within the bounds
+    given. Exact for a constant acceleration; whatever the acceleration does between plus and minus
+    `acceleration`, the error is at most two thirds of `acceleration` * h (the integral over the
+    weight the parabola gives to each moment), to which the time grid adds 2 * speed * tick / h.
     """
     move = blocks.targets[index + 1] - blocks.targets[index]
     axis = int(np.abs(move).argmax())
@@ -217,15 +224,17 @@ def exit_speed(
     if len(mine) < 6 or mine[-1] - mine[-6] > window_ns[1]:
         return None
     window = max(int(mine[-1] - mine[-6]), window_ns[0])
-    if mine[-1] - begin < 2 * window:
+    middle = int(np.searchsorted(mine, mine[-1] - window, side="right")) - 1
+    early = int(np.searchsorted(mine, mine[middle] - window, side="right")) - 1
+    if middle < 0 or early < 0:
         return None
-    moments = mine[-1] - np.array([2, 1, 0]) * window
-    early, middle, last = trace.position_at(moments)
-    scales = np.array([one.pins.steps_per_unit for one in traces])
-    units = move / scales
+    last = len(mine) - 1
+    late_s = (mine[last] - mine[middle]) / 1e9
+    early_s = (mine[middle] - mine[early]) / 1e9
+    late, before = (last - middle) / late_s, (middle - early) / early_s
+    units = move / np.array([one.pins.steps_per_unit for one in traces])
     length = float(np.sqrt((units[:3] ** 2).sum())) or abs(float(units[3]))
     per_step = length / abs(int(move[axis]))
-    h = window / 1e9
-    speed = abs(3 * last - 4 * middle + early) / (2 * h) * per_step
-    error = acceleration * h / 4 + 2 * speed * TICK_NS / window
-    return ExitSpeed(float(speed), float(error), per_step)
+    speed = float(late + (late - before) / (late_s + early_s) * late_s) * per_step
+    error = acceleration * max(late_s, early_s) * 2 / 3 + 2 * speed * TICK_NS / window
+    return ExitSpeed(speed, float(error), per_step)
