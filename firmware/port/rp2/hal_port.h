@@ -33,7 +33,8 @@ static __force_inline uint32_t hal_pins_read(void) {
 // Register addresses from the Armv6-M and Armv8-M architecture manuals; the same on both chips. The
 // SDK's functions forget a pending interrupt when they switch its line on; these do not.
 
-#define RP2_NVIC_REGISTER(offset, irq) (*(volatile uint32_t *)(PPB_BASE + (offset) + 4u * ((irq) / 32u)))
+#define RP2_NVIC_REGISTER(offset, irq)                                                             \
+    (*(volatile uint32_t *)(PPB_BASE + (offset) + 4u * ((irq) / 32u)))
 #define RP2_NVIC_ENABLE 0xE100u
 #define RP2_NVIC_DISABLE 0xE180u
 #define RP2_NVIC_PEND 0xE200u

@@ -26,7 +26,8 @@ void rp2_fault_init(void) {
     } else if (reason == REASON_PANIC) {
         snprintf(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
     } else if (watchdog_enable_caused_reboot()) {
-        snprintf(report, sizeof report, "Restarted after the main loop hung for %u s\r\n", WATCHDOG_MS / 1000);
+        snprintf(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
+                 WATCHDOG_MS / 1000);
     }
     watchdog_hw->scratch[0] = 0;
     watchdog_enable(WATCHDOG_MS, true);

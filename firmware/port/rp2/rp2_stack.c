@@ -10,9 +10,6 @@
 #define MAIN_STACK_BYTES 32768
 #define GUARD_BYTES 256 // the smallest region of the RP2040's memory protection unit
 
-#define TEXT(macro) TEXT_OF(macro)
-#define TEXT_OF(token) #token
-
 // The guard takes the lowest bytes of the stack's own memory.
 static uint8_t main_stack[MAIN_STACK_BYTES]
     __attribute__((used, aligned(GUARD_BYTES), section(".uninitialized_data.stack")));
@@ -21,7 +18,12 @@ int __wrap_main(void);
 
 // The linker puts this before main() (--wrap=main), which it calls __real_main.
 int __attribute__((naked)) __wrap_main(void) {
-    __asm volatile("ldr r0, =main_stack + " TEXT(MAIN_STACK_BYTES) "\n"
+    static_assert(MAIN_STACK_BYTES == 1 << 15, "as computed here");
+    __asm volatile(".syntax unified\n"
+                   "movs r0, #1\n"
+                   "lsls r0, r0, #15\n"
+                   "ldr r1, =main_stack\n"
+                   "adds r0, r0, r1\n"
                    "msr psp, r0\n"
                    "movs r0, #2\n" // SPSEL: threads use PSP
                    "msr control, r0\n"
@@ -36,7 +38,8 @@ int __attribute__((naked)) __wrap_main(void) {
 #if PICO_RP2040
 void rp2_stack_guard(void) {
     mpu_hw->rbar = (uintptr_t)main_stack | M0PLUS_MPU_RBAR_VALID_BITS; // region 0
-    mpu_hw->rasr = M0PLUS_MPU_RASR_ENABLE_BITS | (7u << M0PLUS_MPU_RASR_SIZE_LSB); // 2^(7+1) bytes; no access
+    // 2^(7+1) bytes, no access.
+    mpu_hw->rasr = M0PLUS_MPU_RASR_ENABLE_BITS | (7u << M0PLUS_MPU_RASR_SIZE_LSB);
     mpu_hw->ctrl = M0PLUS_MPU_CTRL_PRIVDEFENA_BITS | M0PLUS_MPU_CTRL_ENABLE_BITS;
     __dsb();
     __isb();

@@ -7,7 +7,7 @@
 #include "rp2_port.h"
 #include "version.h"
 
-bi_decl(bi_program_version_string(STEPMITE_VERSION))
+bi_decl(bi_program_version_string(STEPMITE_VERSION));
 
 void hal_init(int argc, char **argv) {
     (void)argc;

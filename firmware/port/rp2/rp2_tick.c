@@ -22,6 +22,7 @@ void hal_tick_start(void) {
     systick_hw->rvr = TICK_CYCLES - 1;
     systick_hw->cvr = 0; // any write clears it: the first tick comes a whole period later
     scb_hw->icsr = ARM_CPU_PREFIXED(ICSR_PENDSTCLR_BITS);
-    systick_hw->csr = ARM_CPU_PREFIXED(SYST_CSR_CLKSOURCE_BITS) | ARM_CPU_PREFIXED(SYST_CSR_TICKINT_BITS) |
+    systick_hw->csr = ARM_CPU_PREFIXED(SYST_CSR_CLKSOURCE_BITS) |
+                      ARM_CPU_PREFIXED(SYST_CSR_TICKINT_BITS) |
                       ARM_CPU_PREFIXED(SYST_CSR_ENABLE_BITS);
 }

@@ -1,6 +1,6 @@
 // The console's serial port: UART0 on GP0 (out) and GP1 (in), 115200 baud 8N1, a ring each way.
 // Contexts: main, and uart_irq() in the UART's interrupt.
-#include "base/ring.h"
+#include "base/base.h"
 #include "hal/hal.h"
 
 #include "hardware/gpio.h"
