@@ -3,7 +3,7 @@ function(stepmite_firmware_image target)
     add_executable(${target} $<TARGET_OBJECTS:stepmite_main>)
     set_target_properties(${target} PROPERTIES LINKER_LANGUAGE C)
     stepmite_link_parts(${target} ${ARGN})
-    target_link_libraries(${target} PRIVATE ${STEPMITE_SDK_LIBRARIES} pico_stdio_usb)
+    target_link_libraries(${target} PRIVATE ${STEPMITE_SDK_LIBRARIES} pico_stdio_usb m)
     target_compile_definitions(${target} PRIVATE ${STEPMITE_SDK_DEFINITIONS})
 
     # newlib's printf, so that numbers look the same on the board and on the host.

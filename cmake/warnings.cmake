@@ -6,7 +6,7 @@ add_library(stepmite_flags INTERFACE)
 target_compile_options(stepmite_flags INTERFACE
     -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wmissing-prototypes -Werror
     -Wno-format-truncation # messages are meant to be cut at their buffer's end
-    -ffp-contract=off
+    -ffp-contract=off -fno-math-errno
 )
 if(STEPMITE_SANITIZE)
     set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
