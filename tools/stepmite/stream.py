@@ -220,6 +220,7 @@ class Streamer:
                 " them kept in reserve: too few for a line"
             )
         stuck_since = None
+        in_vain = 0
         while self._credit < goal:
             self._check_cancel()
             before = self._credit
@@ -235,8 +236,19 @@ class Streamer:
                 stuck_since = stuck_since or time.monotonic()
                 if time.monotonic() - stuck_since > STUCK_S:
                     raise JobError("the queue of the board is full and nothing moves")
-            in_ring_s = sum(seconds for _, seconds in self._queue)
-            time.sleep(min(max(in_ring_s / 8, _POLL_S[0]), _POLL_S[1]))
+            in_vain = in_vain + 1 if self._credit == before else 0
+            time.sleep(self._pause_s(in_vain))
+
+    def _pause_s(self, in_vain: int) -> float:
+        """Return how long to wait before the next question.
+
+        A fraction of the motion in the queue. After many questions in vain the longest pause: the
+        host build lets virtual time pass only while nobody talks to it.
+        """
+        in_ring_s = sum(seconds for _, seconds in self._queue)
+        if in_vain > 10:
+            return _POLL_S[1]
+        return min(max(in_ring_s / 8, _POLL_S[0]), _POLL_S[1])
 
     # ---- Sending ------------------------------------------------------------------------------
 
