@@ -15,32 +15,31 @@ run: host ## the BASIC prompt in this terminal; no board needed
 
 host: ## build/host/stepmite, the firmware as a program
 	@tools/setup host
-	@mkdir -p build && { cmake --preset host >build/host.log 2>&1 || { cat build/host.log; false; }; }
-	@cmake --build --preset host -j $(JOBS) --target stepmite
+	@$(call build,host,,stepmite)
 
 firmware: ## build/pico/stepmite-pico.uf2 and build/pico2/stepmite-pico2.uf2
 	@tools/setup firmware
-	@$(call build,pico,)
-	@$(call build,pico2,)
+	@$(call build,pico,,stepmite-pico)
+	@$(call build,pico2,,stepmite-pico2)
 
 test: ## every test; under 15 minutes on two cores
 	@tools/setup test
-	@$(foreach preset,host asan pico pico2,$(call build,$(preset),-DSTEPMITE_TESTS=ON) &&) true
+	@$(foreach preset,host asan pico pico2,$(call build,$(preset),-DSTEPMITE_TESTS=ON,all) &&) true
 	@$(PYTHON) -m pytest tests
 
 bench: ## cycles of tick, governor and G-code line, counted in the emulator
 	@tools/setup bench
-	@$(call build,pico,)
+	@$(call build,pico,,stepmite-pico)
 	@$(PYTHON) tests/bench/bench_tick.py
 
 demo: ## the firmware in the emulator cuts a real part; draws build/demo/demo.png
 	@tools/setup demo
-	@$(call build,pico,)
+	@$(call build,pico,,stepmite-pico)
 	@$(PYTHON) -m stepmite.demo
 
 fuzz: ## feed garbage to the prompt and the G-code reader for FUZZ_SECONDS (600)
 	@tools/setup fuzz
-	@$(call build,asan,-DSTEPMITE_TESTS=ON)
+	@$(call build,asan,-DSTEPMITE_TESTS=ON,stepmite_fuzz)
 	@build/asan/stepmite_fuzz --seconds $(FUZZ_SECONDS)
 
 format: ## put our C files into the common form
@@ -50,6 +49,6 @@ format: ## put our C files into the common form
 clean: ## remove everything built
 	rm -rf build
 
-# $(call build,PRESET,OPTIONS): configures quietly and builds.
+# $(call build,PRESET,OPTIONS,TARGET): configures quietly and builds.
 build = mkdir -p build && { cmake --preset $(1) $(2) >build/$(1).log 2>&1 || { cat build/$(1).log; false; }; } \
-	&& cmake --build --preset $(1) -j $(JOBS)
+	&& cmake --build --preset $(1) -j $(JOBS) --target $(3)
