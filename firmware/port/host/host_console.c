@@ -12,9 +12,9 @@
 #include "host_terminal.h"
 
 #define BUFFER_SIZE 65536
-#define SEND_CHUNK 512     // poll() promises room for this much: POSIX's smallest PIPE_BUF
-#define SEND_EARLY 4096    // output waiting that is sent without being asked
-#define READS_PER_POLL 64  // a program may ask for input at every statement; a system call is dearer
+#define SEND_CHUNK 512    // poll() promises room for this much: POSIX's smallest PIPE_BUF
+#define SEND_EARLY 4096   // output waiting that is sent without being asked
+#define READS_PER_POLL 64 // a program may ask for input at every statement; a system call is dearer
 #define KEY_CTRL_C 3
 #define KEY_CTRL_D 4
 
@@ -53,7 +53,7 @@ static bool can(int file, short events) {
     return poll(&state, 1, 0) > 0;
 }
 
-// ---- Input ---------------------------------------------------------------------------------------
+// ---- Input --------------------------------------------------------------------------------------
 
 static void take_input(void) {
     size_t room = queue_room(&console.input);
@@ -119,7 +119,7 @@ bool hal_end_of_input(void) {
     return console.at_end && queue_used(&console.input) == 0 && !host_signals_interrupted();
 }
 
-// ---- Output --------------------------------------------------------------------------------------
+// ---- Output -------------------------------------------------------------------------------------
 
 // The reader has gone: nobody is left to be told, so this ends without a word.
 static _Noreturn void leave_quietly(void) {
@@ -172,7 +172,7 @@ bool host_console_is_blocked(void) {
     return queue_used(&console.output) > 0;
 }
 
-// ---- Both ----------------------------------------------------------------------------------------
+// ---- Both ---------------------------------------------------------------------------------------
 
 void host_console_poll(void) {
     console.idle_reads = 1;

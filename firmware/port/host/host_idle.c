@@ -1,5 +1,6 @@
-// Waiting. In virtual time hal_idle() jumps: input that is there is taken first, then time goes on to the
-// next event. In real time it sleeps, and virtual time catches up with wall time. Context: main.
+// Waiting. In virtual time hal_idle() jumps: input that is there is taken first, then time goes on
+// to the next event. In real time it sleeps, and virtual time catches up with wall time. Context:
+// main.
 #include "host_idle.h"
 
 #include <stdlib.h>
@@ -10,11 +11,11 @@
 #include "host_signals.h"
 #include "host_system.h"
 
-#define STATEMENT_NS 20000u       // what a BASIC statement costs, about as on a board
-#define BATCH_NS 1000000u         // longest run of ticks between two looks at the main loop
-#define PATIENCE_NS 50000000u     // wall time given to a peer that may be about to send
-#define CATCH_UP_NS 100000000u    // longest delay that real time makes up for
-#define HOPELESS_IDLES_MAX 1000u  // waits that nothing can end, before giving up
+#define STATEMENT_NS 20000u      // what a BASIC statement costs, about as on a board
+#define BATCH_NS 1000000u        // longest run of ticks between two looks at the main loop
+#define PATIENCE_NS 50000000u    // wall time given to a peer that may be about to send
+#define CATCH_UP_NS 100000000u   // longest delay that real time makes up for
+#define HOPELESS_IDLES_MAX 1000u // waits that nothing can end, before giving up
 
 static struct {
     bool realtime;
@@ -47,7 +48,7 @@ static void wait_hopelessly(void) {
     }
 }
 
-// ---- Virtual time --------------------------------------------------------------------------------
+// ---- Virtual time -------------------------------------------------------------------------------
 
 // True if input came while waiting for a peer that may be about to send.
 static bool wait_patiently(void) {
@@ -90,9 +91,10 @@ static void idle_virtual(uint64_t until_ns) {
     host_clock_run(min_ns(until_ns, batch_end_ns()), true);
 }
 
-// ---- Real time -----------------------------------------------------------------------------------
+// ---- Real time ----------------------------------------------------------------------------------
 
-// What virtual time should be by now. A program that was stopped or slow does not make up for all of it.
+// What virtual time should be by now. A program that was stopped or slow does not make up for all
+// of it.
 static uint64_t due_ns(void) {
     uint64_t wall_ns = host_signals_wall_ns() - idle.wall_zero_ns;
     uint64_t latest_ns = host_clock_now_ns() + CATCH_UP_NS;
@@ -122,7 +124,7 @@ static void idle_realtime(uint64_t until_ns) {
     host_clock_run(min_ns(due_ns(), until_ns), true);
 }
 
-// ---- The seam ------------------------------------------------------------------------------------
+// ---- The seam -----------------------------------------------------------------------------------
 
 void hal_idle(uint64_t until_us) {
     host_signals_check();

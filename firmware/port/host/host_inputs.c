@@ -29,7 +29,8 @@ static struct {
     size_t next;
 } inputs;
 
-// Reads digits up to `end_char`, at most `digits_max`. Returns the place behind `end_char`, or NULL.
+// Reads digits up to `end_char`, at most `digits_max`. Returns the place behind `end_char`, or
+// NULL.
 static const char *read_number(const char *text, char end_char, int digits_max, uint64_t *value) {
     int digits = 0;
     *value = 0;

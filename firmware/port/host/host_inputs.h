@@ -4,9 +4,10 @@
 
 #include <stdint.h>
 
-// Reads EVENTS.csv: a header `time_ns,gpio,level` (may be missing), then one edge a line, in any order;
-// edges of the same time are applied in the order of the file. Blank lines are skipped. Leaves the
-// program with file, line and reason if a line is wrong. Context: main, before time moves.
+// Reads EVENTS.csv: a header `time_ns,gpio,level` (may be missing), then one edge a line, in any
+// order; edges of the same time are applied in the order of the file. Blank lines are skipped.
+// Leaves the program with file, line and reason if a line is wrong. Context: main, before time
+// moves.
 void host_inputs_load(const char *path);
 
 // Time of the next edge; HOST_CLOCK_NEVER if none is left. Context: any.

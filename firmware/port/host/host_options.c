@@ -16,27 +16,39 @@
 
 #define PROGRAM_SIZE_MAX (16L * 1024 * 1024) // far beyond what the interpreter takes
 
-static const char usage[] = "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv] [--flash IMAGE]\n"
-                            "                [--virtual|--realtime] [--help] [--version] [FILE.bas]\n";
+static const char usage[] =
+    "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv] [--flash IMAGE]\n"
+    "                [--virtual|--realtime] [--help] [--version] [FILE.bas]\n";
 
 static const char help[] =
     "\n"
     "StepMite, the motion controller, as a program on this computer: the same firmware with\n"
     "simulated pins. With FILE.bas that BASIC program is run, and the exit code is 0, or 1 after\n"
-    "an error in it; without, the prompt is on stdin and stdout. At the end of input or program it\n"
+    "an error in it; without, the prompt is on stdin and stdout. At the end of input or program "
+    "it\n"
     "waits until motion has ended, then leaves.\n"
     "\n"
     "  --trace EDGES.csv    write every edge of every output pin: time_ns,gpio,level\n"
     "  --inputs EVENTS.csv  edges to apply to input pins, same columns, times from the start\n"
     "  --flash IMAGE        keep the flash storage in this file; it is made if it is missing\n"
     "  --virtual            time jumps to the next event instead of passing\n"
-    "  --realtime           time passes as on a board; the default if stdin and stdout are a terminal\n"
+    "  --realtime           time passes as on a board; the default if stdin and stdout are a "
+    "terminal\n"
     "  --help, --version    print this, or the version, and leave\n"
     "\n"
-    "Keys on a terminal: Ctrl-C goes to the firmware, Ctrl-D ends the input, Ctrl-\\ quits at once.\n"
+    "Keys on a terminal: Ctrl-C goes to the firmware, Ctrl-D ends the input, Ctrl-\\ quits at "
+    "once.\n"
     "Exit codes: 0, 1 BASIC error, 2 wrong usage or unusable file, 128 + n ended by signal n.\n";
 
-enum { OPTION_TRACE = 256, OPTION_INPUTS, OPTION_FLASH, OPTION_VIRTUAL, OPTION_REALTIME, OPTION_HELP, OPTION_VERSION };
+enum {
+    OPTION_TRACE = 256,
+    OPTION_INPUTS,
+    OPTION_FLASH,
+    OPTION_VIRTUAL,
+    OPTION_REALTIME,
+    OPTION_HELP,
+    OPTION_VERSION
+};
 
 static const struct option long_options[] = {
     {"trace", required_argument, NULL, OPTION_TRACE},
@@ -66,7 +78,8 @@ static void read_program(const char *path) {
     }
     struct stat status;
     if (fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_size > PROGRAM_SIZE_MAX) {
-        host_system_fail("%s: too long for a program (%lld bytes)", path, (long long)status.st_size);
+        host_system_fail("%s: too long for a program (%lld bytes)", path,
+                         (long long)status.st_size);
     }
     size_t capacity = 0;
     ssize_t got = 1;

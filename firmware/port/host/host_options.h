@@ -12,8 +12,8 @@ typedef struct {
     bool realtime;            // virtual time follows wall time
 } host_options_t;
 
-// Reads the options and the program file. Leaves the program with a message if they are wrong, and after
-// --help and --version. The result stays valid.
+// Reads the options and the program file. Leaves the program with a message if they are wrong, and
+// after --help and --version. The result stays valid.
 const host_options_t *host_options_parse(int argc, char **argv);
 
 #endif

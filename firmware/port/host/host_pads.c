@@ -14,7 +14,7 @@ static struct {
     uint32_t driven;        // pins the outside world drives
     uint32_t driven_levels; // and how
     uint32_t pull_up;
-    uint32_t levels;        // what the pads show: follows from all of the above
+    uint32_t levels; // what the pads show: follows from all of the above
 } pads;
 
 // Takes the new levels over. `recorded` are the changed pins that belong into the trace.

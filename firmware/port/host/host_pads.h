@@ -1,5 +1,5 @@
-// The simulated pads. A pad shows, in this order: what the firmware drives (an output), what the outside
-// world drives, the pull; an unconnected input without pull-up is low. Context: any.
+// The simulated pads. A pad shows, in this order: what the firmware drives (an output), what the
+// outside world drives, the pull; an unconnected input without pull-up is low. Context: any.
 #ifndef HOST_PADS_H
 #define HOST_PADS_H
 

@@ -1,5 +1,5 @@
-// Signal handlers and the flags they set. Context: main; the handlers run in between anywhere and use
-// only what a handler may use.
+// Signal handlers and the flags they set. Context: main; the handlers run in between anywhere and
+// use only what a handler may use.
 #include "host_signals.h"
 
 #include <errno.h>

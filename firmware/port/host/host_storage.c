@@ -71,14 +71,15 @@ void host_storage_open(const char *path) {
     } else if (status.st_size == (off_t)HAL_STORAGE_SIZE) {
         load();
     } else {
-        host_system_fail("%s: a flash image has %u bytes, this file has %lld", path, HAL_STORAGE_SIZE,
-                         (long long)status.st_size);
+        host_system_fail("%s: a flash image has %u bytes, this file has %lld", path,
+                         HAL_STORAGE_SIZE, (long long)status.st_size);
     }
 }
 
 void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
     if (!is_range(offset, size)) {
-        host_system_fail("the firmware read beyond its storage: %zu bytes at %u", size, (unsigned)offset);
+        host_system_fail("the firmware read beyond its storage: %zu bytes at %u", size,
+                         (unsigned)offset);
     }
     uint8_t *to = bytes;
     for (size_t i = 0; i < size; i++) {
@@ -87,7 +88,8 @@ void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
 }
 
 bool hal_storage_erase(uint32_t offset) {
-    if (hal_tick_running() || offset % HAL_STORAGE_SECTOR != 0 || !is_range(offset, HAL_STORAGE_SECTOR)) {
+    if (hal_tick_running() || offset % HAL_STORAGE_SECTOR != 0 ||
+        !is_range(offset, HAL_STORAGE_SECTOR)) {
         return false;
     }
     memset(storage.inverted + offset, 0, HAL_STORAGE_SECTOR);
@@ -96,7 +98,8 @@ bool hal_storage_erase(uint32_t offset) {
 }
 
 bool hal_storage_program(uint32_t offset, const void *page) {
-    if (hal_tick_running() || offset % HAL_STORAGE_PAGE != 0 || !is_range(offset, HAL_STORAGE_PAGE)) {
+    if (hal_tick_running() || offset % HAL_STORAGE_PAGE != 0 ||
+        !is_range(offset, HAL_STORAGE_PAGE)) {
         return false;
     }
     const uint8_t *from = page;

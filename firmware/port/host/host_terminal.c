@@ -27,7 +27,8 @@ bool host_terminal_is_raw(void) {
     return terminal.is_raw != 0;
 }
 
-// Puts the action back that was there before (a sanitizer has one); returning repeats the fault for it.
+// Puts the action back that was there before (a sanitizer has one); returning repeats the fault for
+// it.
 static void on_crash(int signal_number) {
     host_terminal_restore();
     for (size_t i = 0; i < COUNT_OF_ARRAY(crash_signals); i++) {

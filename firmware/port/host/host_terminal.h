@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-// If stdin is a terminal: no echo, no lines, no signal keys but Ctrl-\. Undone at exit, on crashes and
-// while the program is stopped. Context: main.
+// If stdin is a terminal: no echo, no lines, no signal keys but Ctrl-\. Undone at exit, on crashes
+// and while the program is stopped. Context: main.
 void host_terminal_raw(void);
 
 // Gives the terminal its settings back. Any context, signal handlers too.

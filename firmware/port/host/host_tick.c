@@ -10,11 +10,11 @@
 typedef enum { CONTEXT_MAIN, CONTEXT_TICK, CONTEXT_GOVERNOR } context_t;
 
 static struct {
-    uint64_t next_ns;      // of the coming tick
+    uint64_t next_ns; // of the coming tick
     bool running;
     bool governor_pending; // asked for and not yet begun
     bool governor_locked;
-    bool news;             // governor ran or tick stopped since host_tick_run() looked
+    bool news; // governor ran or tick stopped since host_tick_run() looked
     context_t context;
 } tick;
 
@@ -22,8 +22,8 @@ uint64_t host_tick_next_ns(void) {
     return tick.running ? tick.next_ns : HOST_CLOCK_NEVER;
 }
 
-// From main's level only: the governor interrupts neither the tick nor itself. A request made while it
-// runs brings it again, as a pending interrupt does.
+// From main's level only: the governor interrupts neither the tick nor itself. A request made while
+// it runs brings it again, as a pending interrupt does.
 static void governor_if_due(void) {
     while (tick.governor_pending && !tick.governor_locked) {
         tick.governor_pending = false;

@@ -1,5 +1,5 @@
-// Writes the edge file through a buffer; rows are formatted by hand because long jobs have hundreds of
-// millions of them. Context: any.
+// Writes the edge file through a buffer; rows are formatted by hand because long jobs have hundreds
+// of millions of them. Context: any.
 #include "host_trace.h"
 
 #include <errno.h>

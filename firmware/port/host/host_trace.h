@@ -1,9 +1,8 @@
-// The edge recorder: EDGES.csv, header `time_ns,gpio,level`, a row for each edge of each output pin, in
-// order of time; edges of the same moment in order of GPIO if one call made them, else in order of the
-// calls.
-// Every row is a change of what the pad shows, seen from reset, when all pads are low. A pin that becomes
-// an output leaves a row only if its first level differs from what the pad showed as an input; one that
-// stops being an output leaves a row if the pad changes with it.
+// The edge recorder: EDGES.csv, header `time_ns,gpio,level`, a row for each edge of each output
+// pin, in order of time; edges of the same moment in order of GPIO if one call made them, else in
+// order of the calls. Every row is a change of what the pad shows, seen from reset, when all pads
+// are low. A pin that becomes an output leaves a row only if its first level differs from what the
+// pad showed as an input; one that stops being an output leaves a row if the pad changes with it.
 #ifndef HOST_TRACE_H
 #define HOST_TRACE_H
 

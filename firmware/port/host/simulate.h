@@ -1,5 +1,5 @@
-// What hangs at the simulated pins: observers that are told about every edge, and one of them, an axis
-// that counts steps as a motor driver would. Context: any (called where the edge is made).
+// What hangs at the simulated pins: observers that are told about every edge, and one of them, an
+// axis that counts steps as a motor driver would. Context: any (called where the edge is made).
 #ifndef SIMULATE_H
 #define SIMULATE_H
 
@@ -11,7 +11,8 @@
 #define SIMULATE_OBSERVERS_MAX 8
 
 // `changed`: the pins with an edge; `levels`: all pins after it.
-typedef void (*simulate_observer_t)(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels);
+typedef void (*simulate_observer_t)(void *state, uint64_t time_ns, uint32_t changed,
+                                    uint32_t levels);
 
 // Adds an observer, called from now on with its `state`. False if there is no room.
 bool simulate_observe(simulate_observer_t observer, void *state);
@@ -24,8 +25,8 @@ typedef enum {
     SIMULATE_FAULT_MISS_STEPS, // every `fault_every`-th step pulse does not move the axis
 } simulate_fault_t;
 
-// A driver and its motor: a rising edge of `step` moves it one step, up while `dir` is high. Fill in the
-// first group, then simulate_axis_attach().
+// A driver and its motor: a rising edge of `step` moves it one step, up while `dir` is high. Fill
+// in the first group, then simulate_axis_attach().
 typedef struct {
     unsigned step_gpio;
     unsigned dir_gpio;

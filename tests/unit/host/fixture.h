@@ -1,4 +1,5 @@
-// What the tests of the host port share: a core to be called by the port, files, and expected exits.
+// What the tests of the host port share: a core to be called by the port, files, and expected
+// exits.
 #ifndef FIXTURE_H
 #define FIXTURE_H
 

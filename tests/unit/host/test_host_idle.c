@@ -133,7 +133,8 @@ static void wait_for_ever(void *argument) {
 static void test_a_wait_that_nothing_can_end_is_given_up(void) {
     char message[200];
     TEST_ASSERT_EQUAL_INT(2, fixture_exit_code(wait_for_ever, NULL, message, sizeof message));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message, "nothing is left that could end the wait\n"), message);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message, "nothing is left that could end the wait\n"),
+                                 message);
 }
 
 int main(void) {

@@ -166,7 +166,8 @@ static void use_gpio_30(void *argument) {
 static void test_a_pin_that_does_not_exist_is_reported(void) {
     char message[200];
     TEST_ASSERT_EQUAL_INT(2, fixture_exit_code(use_gpio_30, NULL, message, sizeof message));
-    TEST_ASSERT_EQUAL_STRING("stepmite: the firmware used GPIO 30, which does not exist\n", message);
+    TEST_ASSERT_EQUAL_STRING("stepmite: the firmware used GPIO 30, which does not exist\n",
+                             message);
 }
 
 int main(void) {
