@@ -1,0 +1,105 @@
+// READ and RESTORE: where in the program's DATA the next value is. Context: main loop.
+#include <string.h>
+
+#include "actions.h"
+#include "code.h"
+#include "errors.h"
+#include "memory.h"
+#include "number_text.h"
+#include "vm.h"
+
+static struct {
+    uint32_t first;   // place of the program's first DATA, 0: there is none
+    uint32_t current; // of the DATA being read, 0: all are read
+    unsigned offset;  // into its text
+} data;
+
+void actions_data_reset(uint32_t first) {
+    data.first = data.current = first;
+    data.offset = 0;
+}
+
+// OP_DATA, place of the next one (3 bytes), length, text
+static const uint8_t *current_text(unsigned *length) {
+    const uint8_t *instruction = memory.base + data.current;
+    *length = instruction[4];
+    return instruction + 5;
+}
+
+static void go_to_next(void) {
+    data.current = code_u24(memory.base + data.current + 1);
+    data.offset = 0;
+}
+
+// The end of the item that starts at `offset`: the comma behind it, or the end of the text.
+static unsigned item_end(const uint8_t *text, unsigned offset, unsigned length) {
+    bool quoted = false;
+    while (offset < length && (quoted || text[offset] != ',')) {
+        quoted ^= text[offset] == '"';
+        offset++;
+    }
+    return offset;
+}
+
+static value_t next_item(bool *quoted) {
+    if (data.current == 0) {
+        errors_fail(ERR_NO_DATA);
+    }
+    unsigned length;
+    const uint8_t *text = current_text(&length);
+    unsigned start = data.offset;
+    unsigned end = item_end(text, start, length);
+    if (end < length) {
+        data.offset = end + 1;
+    } else {
+        go_to_next();
+    }
+    while (start < end && text[start] == ' ') {
+        start++;
+    }
+    while (end > start && text[end - 1] == ' ') {
+        end--;
+    }
+    *quoted = start < end && text[start] == '"';
+    if (*quoted) {
+        start++;
+        end -= end > start && text[end - 1] == '"';
+    }
+    value_t item;
+    value_set_text(&item, (const char *)text + start, end - start);
+    return item;
+}
+
+void actions_read(value_t *arguments, unsigned count) {
+    (void)count;
+    bool quoted;
+    value_t item = next_item(&quoted);
+    if (arguments->type != VALUE_STRING_REF) {
+        value_t number;
+        if (quoted || number_text_parse(item.text, item.length, &number) != item.length ||
+            item.length == 0) {
+            errors_fail(ERR_EXPECTED_NUMBER);
+        }
+        item = number;
+    }
+    value_write(arguments, &item);
+}
+
+// Without an argument: from the first DATA. With one: from the first behind that place.
+void actions_restore(value_t *arguments, unsigned count) {
+    uint32_t place = 0;
+    if (count != 0) {
+        uint8_t bytes[sizeof arguments->integer];
+        memcpy(bytes, &arguments->integer, sizeof bytes);
+        place = code_u24(bytes);
+        if (memory.base[place] == OP_FAIL) { // the label was not found
+            vm.pc = memory.base + place;
+            return;
+        }
+    }
+    data.current = data.first;
+    data.offset = 0;
+    while (data.current != 0 && data.current < place) {
+        go_to_next();
+    }
+}

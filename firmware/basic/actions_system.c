@@ -1,0 +1,173 @@
+// PAUSE, TIMER, RUN, LIST, OPTION, ON ERROR and the like at run time. Context: main loop.
+#include <stdio.h>
+#include <string.h>
+
+#include "actions.h"
+#include "code.h"
+#include "console.h"
+#include "errors.h"
+#include "functions.h"
+#include "hal/hal.h"
+#include "help.h"
+#include "memory.h"
+#include "program.h"
+#include "vm.h"
+
+#define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
+#define PAUSE_MAX_MS 1e15
+#define LIST_PAGE_LINES 23
+
+// Leaves the loop and says what the prompt is to do.
+static void stop_with(vm_request_t request) {
+    vm.stop = true;
+    vm.request = request;
+    static const uint8_t end[] = {OP_END};
+    vm.pc = end;
+}
+
+ACTION_BODY(end) {
+    (void)arguments;
+    (void)count;
+    stop_with(VM_REQUEST_NONE);
+}
+
+ACTION_BODY(run) {
+    (void)arguments;
+    (void)count;
+    stop_with(VM_REQUEST_RUN);
+}
+
+ACTION_BODY(new) {
+    (void)arguments;
+    (void)count;
+    stop_with(VM_REQUEST_NEW);
+}
+
+ACTION_BODY(autosave) {
+    (void)arguments;
+    (void)count;
+    stop_with(VM_REQUEST_AUTOSAVE);
+}
+
+ACTION_BODY(pause) {
+    (void)count;
+    double ms = value_to_number(arguments);
+    if (!(ms >= 0 && ms < PAUSE_MAX_MS)) {
+        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
+    }
+    uint64_t until_us = hal_time_us() + (uint64_t)(ms * 1000.0);
+    while (hal_time_us() < until_us && !console_break_pending()) {
+        console_wait(until_us);
+    }
+    if (console_break_pending()) {
+        errors_break();
+    }
+}
+
+ACTION_BODY(timer) {
+    (void)count;
+    double ms = value_to_number(arguments);
+    if (!(ms >= 0)) {
+        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
+    }
+    functions_set_timer(ms);
+}
+
+ACTION_BODY(randomize) {
+    functions_seed(count != 0 ? (uint64_t)value_to_integer(arguments) : hal_time_us());
+}
+
+ACTION_BODY(error) {
+    if (count == 0) {
+        errors_fail_with(ERR_ARGUMENT, "Error");
+    }
+    if (arguments->type != VALUE_STRING) {
+        errors_fail(ERR_EXPECTED_STRING);
+    }
+    errors_fail_with(ERR_ARGUMENT, "%.*s", (int)arguments->length, arguments->text);
+}
+
+ACTION_BODY(option) {
+    (void)count;
+    int64_t value = value_to_integer(&arguments[1]);
+    switch (arguments[0].integer) {
+    case ACTIONS_OPTION_EXPLICIT:
+        vm.explicit_names = value != 0;
+        break;
+    case ACTIONS_OPTION_DEFAULT:
+        vm.default_type = (uint8_t)value;
+        break;
+    default:
+        if (value != 0 && value != 1) {
+            errors_fail_with(ERR_ARGUMENT, "%ld is invalid (valid is 0 to 1)", (long)value);
+        }
+        vm.base = (uint8_t)value;
+        break;
+    }
+}
+
+ACTION_BODY(on_error) {
+    (void)count;
+    int64_t statements = value_to_integer(&arguments[1]);
+    if (statements < 1 || statements > INT32_MAX) {
+        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
+    }
+    vm.error_text[0] = '\0';
+    switch (arguments[0].integer) {
+    case ACTIONS_ERROR_ABORT:
+        vm.on_error = VM_ERROR_ABORT;
+        break;
+    case ACTIONS_ERROR_IGNORE:
+        vm.on_error = VM_ERROR_IGNORE;
+        break;
+    case ACTIONS_ERROR_SKIP:
+        vm.on_error = VM_ERROR_SKIP;
+        vm.skip_count = (unsigned)statements;
+        break;
+    default:
+        break;
+    }
+}
+
+ACTION_BODY(memory) {
+    (void)arguments;
+    (void)count;
+    char text[80];
+    size_t total = (size_t)(memory.top - memory.floor);
+    snprintf(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n", (unsigned)program_length(),
+             (unsigned)memory_free(), (unsigned)total);
+    console_print(text);
+}
+
+ACTION_BODY(help) {
+    (void)count;
+    help_print(arguments->text, arguments->length);
+}
+
+// True: go on; Ctrl-C and q end the list.
+static bool page_turned(void) {
+    console_print("PRESS ANY KEY ...");
+    int key;
+    while ((key = console_take()) < 0 && !console_break_pending() && !hal_end_of_input()) {
+        console_wait(UINT64_MAX);
+    }
+    console_print("\r\x1b[K");
+    return key >= 0 && !console_break_pending() && (key | 0x20) != 'q';
+}
+
+ACTION_BODY(list) {
+    (void)count;
+    bool all = value_is_true(arguments);
+    const char *text = program_text();
+    const char *end = text + program_length();
+    for (unsigned line = 1; text < end && !console_break_pending(); line++) {
+        const char *stop = memchr(text, '\n', (size_t)(end - text));
+        stop = stop != NULL ? stop : end;
+        console_write(text, (size_t)(stop - text));
+        console_new_line();
+        text = stop + 1;
+        if (!all && line % LIST_PAGE_LINES == 0 && text < end && !page_turned()) {
+            return;
+        }
+    }
+}

@@ -1,0 +1,43 @@
+// Arguments of the configuration's commands and functions: from the text of a statement, by way of
+// code, to the basic_arg_t a handler gets. Context: main loop.
+#ifndef BASIC_ARGS_H
+#define BASIC_ARGS_H
+
+#include <stdbool.h>
+
+#include "basic/basic.h"
+#include "value.h"
+
+void args_start(const basic_config_t *config);
+
+// ---- Compiling -----------------------------------------------------------------------------------
+
+// The word at hand is the first of row `row`'s name: finds the longest name that fits and compiles the
+// arguments. Errors: unknown subcommand, missing argument, too many.
+void args_compile_command(int row);
+
+// The same for a function and its parentheses.
+void args_compile_function(int row);
+
+// ---- Running -------------------------------------------------------------------------------------
+
+void args_run(unsigned row, const value_t *values, unsigned count);
+
+// Leaves the result in values[0].
+void args_evaluate(unsigned row, value_t *values, unsigned count);
+
+// Checks and converts `count` values by the specification. Error: names the argument and its range.
+void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values, unsigned count,
+                  basic_arg_t *out, size_t *out_count);
+
+// The limits of a number in words: "above 0 to 100000".
+void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size);
+
+// A limit or default in full digits; the buffer has NUMBER_TEXT_SIZE bytes.
+void args_format_limit(char *buffer, double limit);
+
+// The configuration's rows.
+const basic_command_t *args_command(unsigned row);
+const basic_function_t *args_function(unsigned row);
+
+#endif

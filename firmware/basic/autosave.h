@@ -1,0 +1,13 @@
+// AUTOSAVE: a program from the terminal. Context: main loop.
+#ifndef BASIC_AUTOSAVE_H
+#define BASIC_AUTOSAVE_H
+
+#include <stdbool.h>
+
+#include "base/base.h"
+
+// Takes lines up to Ctrl-Z or F1, makes them the program and keeps them in flash. Ctrl-C leaves the
+// old program as it was. *start becomes true if it is to run. Errors: too long, motion runs.
+err_t autosave_read(bool *start);
+
+#endif

@@ -1,0 +1,256 @@
+// The face of the language: start, programs, the prompt. Context: main loop.
+#include "basic/basic.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "args.h"
+#include "autosave.h"
+#include "compiler.h"
+#include "console.h"
+#include "errors.h"
+#include "hal/hal.h"
+#include "help.h"
+#include "line_editor.h"
+#include "memory.h"
+#include "number_text.h"
+#include "program.h"
+#include "program_storage.h"
+#include "vm.h"
+#include "words.h"
+
+#define PRINT_SIZE 256
+
+static const basic_config_t *config;
+
+// ---- Printing ------------------------------------------------------------------------------------
+
+static void write_lines(const char *text) {
+    for (; *text != '\0'; text++) {
+        if (*text == '\n') {
+            console_new_line();
+        } else if (*text != '\r') {
+            console_write(text, 1);
+        }
+    }
+}
+
+void basic_printf(const char *format, ...) {
+    char text[PRINT_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    write_lines(text);
+}
+
+void basic_notice(const char *format, ...) {
+    char text[PRINT_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    bool typing = line_editor_hide();
+    if (!typing) {
+        console_fresh_line();
+    }
+    write_lines(text);
+    console_fresh_line();
+    if (typing) {
+        line_editor_show();
+    }
+}
+
+char *basic_format_number(char *buffer, size_t size, double value) {
+    char text[NUMBER_TEXT_SIZE];
+    number_text_float(text, value);
+    snprintf(buffer, size, "%s", text);
+    return buffer;
+}
+
+bool basic_break_pending(void) {
+    console_poll();
+    return console_break_pending();
+}
+
+static void print_error(const char *message) {
+    console_fresh_line();
+    size_t length;
+    const char *line = vm_line() != 0 ? program_line(vm_line(), &length) : NULL;
+    if (line != NULL) {
+        char number[16];
+        snprintf(number, sizeof number, "[%u] ", vm_line());
+        console_print(number);
+        console_write(line, length);
+        console_new_line();
+    }
+    console_print("Error : ");
+    console_print(message);
+    console_new_line();
+}
+
+// ---- Running -------------------------------------------------------------------------------------
+
+static void handle_break(void) {
+    console_clear_break();
+    console_fresh_line();
+    if (config->on_break != NULL) {
+        config->on_break();
+    }
+}
+
+// Runs code to its end and reports what ended it.
+static err_t run(const uint8_t *code) {
+    uint8_t *scratch = memory.scratch;
+    bool broken;
+    console_set_running(true);
+    err_t error = vm_run(code, &broken);
+    console_set_running(false);
+    memory.scratch = scratch;
+    if (broken || console_break_pending()) {
+        handle_break();
+    } else if (error != ERR_OK) {
+        print_error(err_message());
+    }
+    return error;
+}
+
+static err_t run_program(void) {
+    for (;;) { // a program may say RUN
+        const uint8_t *code = program_prepare();
+        if (code == NULL) {
+            return ERR_OK;
+        }
+        err_t error = run(code);
+        if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
+            return error;
+        }
+    }
+}
+
+static void report(err_t error) {
+    if (error != ERR_OK) {
+        vm.statement = NULL;
+        print_error(err_message());
+    }
+}
+
+// What the line left to be done once it does not run any more.
+static void serve(vm_request_t request) {
+    switch (request) {
+    case VM_REQUEST_RUN:
+        if (program_length() == 0) {
+            report(err_raise(ERR_NO_PROGRAM, "%s", ""));
+        }
+        run_program();
+        break;
+    case VM_REQUEST_NEW:
+        if (hal_tick_running()) {
+            report(err_raise(ERR_STORAGE_BUSY, "%s", ""));
+            break;
+        }
+        program_clear();
+        report(program_storage_save("", 0));
+        break;
+    case VM_REQUEST_AUTOSAVE: {
+        bool start = false;
+        err_t error = autosave_read(&start);
+        report(error);
+        if (start && error == ERR_OK) {
+            run_program();
+        }
+        break;
+    }
+    default:
+        break;
+    }
+}
+
+static struct {
+    const char *text;
+    size_t length;
+    const uint8_t *code;
+} line;
+
+static void compile_line(void) {
+    line.code = compiler_line(line.text, line.length);
+}
+
+static void execute_line(void) {
+    uint8_t *scratch = memory.scratch;
+    vm.statement = NULL;
+    if (errors_try(compile_line) != ERRORS_NONE) {
+        print_error(err_message());
+    } else {
+        run(line.code);
+    }
+    memory.scratch = scratch;
+    vm_request_t request = vm.request;
+    vm.request = VM_REQUEST_NONE;
+    serve(request);
+}
+
+// ---- Face ----------------------------------------------------------------------------------------
+
+static void no_background(void) {
+}
+
+void basic_start(const basic_config_t *new_config) {
+    config = new_config;
+    vm.background = config->background != NULL ? config->background : no_background;
+    console_start(vm.background);
+    line_editor_start();
+    args_start(config);
+    help_start(config);
+    words_start(config);
+    memory_start(config->arena, config->arena_size);
+    program_clear();
+    if (config->banner != NULL) {
+        console_print(config->banner);
+    }
+    size_t length;
+    err_t error = program_storage_load((char *)memory.floor, (size_t)(memory.top - memory.floor), &length);
+    report(error);
+    if (length != 0) {
+        report(program_set((const char *)memory.floor, length));
+    }
+    console_flush();
+}
+
+err_t basic_run_program(const char *source, size_t length) {
+    err_t error = program_set(source, length);
+    if (error != ERR_OK) {
+        report(error);
+    } else {
+        error = run_program();
+    }
+    console_flush();
+    return error;
+}
+
+void basic_prompt(void) {
+    static const line_editor_options_t options = {.prompt = "> ", .history = true};
+    console_fresh_line();
+    if (console_lost_input()) {
+        console_print("Warning: input that the program did not read was lost\r\n");
+    }
+    switch (line_editor_read(&options, &line.text, &line.length)) {
+    case LINE_EDITOR_LINE:
+    case LINE_EDITOR_FINISHED:
+    case LINE_EDITOR_FINISHED_RUN:
+        execute_line();
+        break;
+    case LINE_EDITOR_TOO_LONG:
+        vm.statement = NULL;
+        err_raise(ERR_LINE_TOO_LONG, "%s", "");
+        print_error(err_message());
+        break;
+    case LINE_EDITOR_BREAK:
+        handle_break();
+        break;
+    case LINE_EDITOR_END:
+        break;
+    }
+    console_flush();
+}

@@ -1,0 +1,20 @@
+// Calls of SUBs, FUNCTIONs and GOSUBs. Context: main loop.
+#ifndef BASIC_CALLS_H
+#define BASIC_CALLS_H
+
+#include <stdint.h>
+
+#include "symbols.h"
+
+// Enters a routine with `count` arguments on the stack, above the place for its value; vm.pc is
+// where to come back to. Errors: argument list, wrong type, nested too deep.
+void calls_enter(const symbols_routine_t *routine, unsigned count);
+
+// Leaves the routine; a FUNCTION's value is on the stack then.
+void calls_leave(void);
+
+// GOSUB and RETURN. calls_return() gives the place to go on at.
+void calls_gosub(const uint8_t *return_pc);
+const uint8_t *calls_return(void);
+
+#endif

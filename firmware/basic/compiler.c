@@ -1,0 +1,413 @@
+// Source text to code. Context: main loop.
+#include "compiler.h"
+
+#include <string.h>
+
+#include "args.h"
+#include "blocks.h"
+#include "emit.h"
+#include "errors.h"
+#include "expressions.h"
+#include "lexer.h"
+#include "memory.h"
+#include "names.h"
+#include "statements.h"
+#include "symbols.h"
+#include "vm.h"
+#include "words.h"
+
+#define LINE_MAX 255
+#define LINE_CODE_SIZE 2560 // a line of 255 characters; longer code is "too complex"
+#define LINE_NUMBER_DIGITS 5
+
+static struct {
+    unsigned line; // number of the source line, 0 at the prompt
+    uint32_t statement;
+    uint32_t last_data; // operand of the last DATA, to be told where the next one is
+    uint32_t first_data;
+    uint32_t line_number_stub; // code that raises "Line number"
+    uint32_t label_stub;
+    bool in_comment; // between /* and */
+} compiler;
+
+bool compiler_at_prompt(void) {
+    return compiler.line == 0;
+}
+
+uint32_t compiler_statement_start(void) {
+    return compiler.statement;
+}
+
+static void begin_statement(void) {
+    compiler.statement = emit_here();
+    emit_op(OP_STATEMENT);
+    emit_u16(compiler.line);
+    emit_u16(0);
+}
+
+static void end_statement(uint32_t statement) {
+    emit_set_u16(statement + 3, emit_here() - statement);
+}
+
+void compiler_new_statement(void) {
+    end_statement(compiler.statement);
+    begin_statement();
+}
+
+// ---- Labels --------------------------------------------------------------------------------------
+
+static symbols_t *label_at_hand(void) {
+    const lexer_token_t *token = lexer_now();
+    bool is_number = token->kind == LEXER_NUMBER && token->value.type == VALUE_INTEGER;
+    if ((token->kind != LEXER_NAME && !is_number) ||
+        (!is_number && words_is_reserved(token->text, token->length))) {
+        errors_fail(ERR_SYNTAX);
+    }
+    symbols_t *label = symbols_get(SYMBOLS_LABEL, names_scope(), token->text, token->length);
+    lexer_next();
+    return label;
+}
+
+// A label met at the prompt has its place already.
+static void emit_label(symbols_t *label) {
+    if (compiler_at_prompt()) {
+        if (!label->label.defined) {
+            errors_fail(label->name[0] <= '9' ? ERR_NO_LINE_NUMBER : ERR_NO_LABEL);
+        }
+        emit_place(label->label.code);
+    } else {
+        emit_wait(&label->label.waiting);
+    }
+}
+
+void compiler_jump_to_label(int op) {
+    symbols_t *label = label_at_hand();
+    emit_op((code_op_t)op);
+    emit_label(label);
+}
+
+void compiler_label_operand(void) {
+    symbols_t *label = label_at_hand();
+    emit_op(OP_FLOAT); // RESTORE reads the place out of the first bytes of this constant
+    emit_label(label);
+    emit_place(0);
+    emit_u16(0);
+}
+
+static void define_label(const char *name, size_t length) {
+    symbols_t *label = symbols_get(SYMBOLS_LABEL, names_scope(), name, length);
+    if (label->label.defined) {
+        errors_fail_with(ERR_LABEL_TWICE, "%s", label->name);
+    }
+    label->label.defined = true;
+    label->label.code = emit_here();
+}
+
+static uint32_t emit_stub(err_t code) {
+    uint32_t place = emit_here();
+    err_raise(code, "%s", "");
+    emit_op(OP_FAIL);
+    emit_text(err_message(), strlen(err_message()));
+    return place;
+}
+
+// A label that a SUB names may be one of the main program.
+static void resolve_label(symbols_t *label) {
+    if (label->label.waiting == 0) {
+        return;
+    }
+    const symbols_t *place = label;
+    if (!label->label.defined && label->scope != 0) {
+        place = symbols_find(SYMBOLS_LABEL, 0, label->name, label->length);
+    }
+    uint32_t target = label->name[0] <= '9' ? compiler.line_number_stub : compiler.label_stub;
+    if (place != NULL && place->label.defined) {
+        target = place->label.code;
+    }
+    emit_patch_to(label->label.waiting, target);
+    label->label.waiting = 0;
+}
+
+// ---- DATA ----------------------------------------------------------------------------------------
+
+void compiler_link_data(void) {
+    uint32_t here = emit_here() - 1; // OP_DATA
+    if (compiler.first_data == 0) {
+        compiler.first_data = here;
+    } else {
+        emit_patch_to(compiler.last_data, here);
+    }
+    compiler.last_data = emit_here();
+    emit_place(0);
+}
+
+// ---- Statements ----------------------------------------------------------------------------------
+
+void compiler_spoil(uint32_t place, int code) {
+    uint32_t size = code_u16(memory.base + place + 3);
+    unsigned line = code_u16(memory.base + place + 1);
+    uint32_t over = 0;
+    emit_jump(OP_JUMP, &over); // whoever comes along here goes on behind
+    uint32_t stub = emit_here();
+    emit_op(OP_STATEMENT);
+    emit_u16(line);
+    emit_u16(0);
+    emit_stub((err_t)code);
+    end_statement(stub);
+    emit_jump_to(OP_JUMP, place + size);
+    emit_set_jump(place, stub);
+    emit_patch(&over);
+}
+
+static void compile_words(void) {
+    const lexer_token_t *token = lexer_now();
+    if (lexer_take('?')) {
+        statements_print();
+        return;
+    }
+    if (token->kind == LEXER_NAME && token->suffix == 0) {
+        int row = words_find(WORDS_STATEMENT, token->text, token->length);
+        if (row != WORDS_NONE) {
+            lexer_next();
+            statements_table[row].compile();
+            return;
+        }
+        row = words_find(WORDS_COMMAND, token->text, token->length);
+        if (row != WORDS_NONE) {
+            args_compile_command(row);
+            return;
+        }
+    }
+    if (!statements_compile_other()) {
+        errors_fail(ERR_UNKNOWN_COMMAND);
+    }
+}
+
+void compiler_statement(void) {
+    uint32_t outer = compiler.statement;
+    begin_statement();
+    compile_words();
+    if (!lexer_at_end()) {
+        errors_fail(ERR_SYNTAX);
+    }
+    end_statement(compiler.statement);
+    compiler.statement = outer;
+}
+
+static void compile_one(void) {
+    expressions_start();
+    lexer_set_else_ends(false);
+    compiler_statement();
+}
+
+static uint32_t failed_from; // where the code taken back started
+
+// Places in code taken back wait for nothing any more; the newest are at the head of a chain.
+static void forget_waiting(symbols_t *label) {
+    while (label->label.waiting >= failed_from) {
+        label->label.waiting = code_u24(memory.base + label->label.waiting);
+    }
+}
+
+// Puts the error in the place of a statement that did not compile.
+static void emit_failure(uint32_t start) {
+    failed_from = start;
+    symbols_each_label(forget_waiting);
+    emit_rollback(start);
+    begin_statement();
+    emit_op(OP_FAIL);
+    emit_text(err_message(), strlen(err_message()));
+}
+
+// Blocks and a routine still open end here: at the end of the program, or where the next routine starts.
+static void close_all(void) {
+    if (blocks_abandon() != NULL) {
+        statements_abandon_routine();
+        blocks_abandon();
+    }
+    emit_commit();
+}
+
+// True if it went well; an error leaves the rest of the line uncompiled.
+static bool compile_statement_of_program(void) {
+    if (lexer_is_word("SUB") || lexer_is_word("FUNCTION")) {
+        close_all();
+    }
+    uint32_t start = emit_here();
+    symbols_t *routine = names_routine();
+    blocks_save();
+    if (errors_try(compile_one) != ERRORS_NONE) {
+        blocks_restore();
+        names_restore(routine);
+        emit_failure(start);
+        end_statement(start);
+        return false;
+    }
+    emit_commit();
+    return true;
+}
+
+// ---- Lines ---------------------------------------------------------------------------------------
+
+// `name:` or a line number opening the line. Returns the text behind.
+static const char *compile_label(const char *text, const char *end) {
+    lexer_start(text, end);
+    const lexer_token_t *token = lexer_now();
+    if (token->kind == LEXER_NUMBER && token->value.type == VALUE_INTEGER &&
+        token->length <= LINE_NUMBER_DIGITS) {
+        define_label(token->text, token->length);
+        return token->behind;
+    }
+    if (token->kind == LEXER_NAME && token->suffix == 0 && token->behind < end && *token->behind == ':' &&
+        words_find(WORDS_STATEMENT, token->text, token->length) == WORDS_NONE) {
+        define_label(token->text, token->length);
+        return token->behind + 1;
+    }
+    return text;
+}
+
+static const char *line_start, *line_end; // of the line being compiled
+
+static void compile_label_of_line(void) {
+    if (line_end - line_start > LINE_MAX) {
+        errors_fail(ERR_LINE_TOO_LONG);
+    }
+    line_start = compile_label(line_start, line_end);
+}
+
+static void compile_line_of_program(void) {
+    uint32_t start = emit_here();
+    if (errors_try(compile_label_of_line) != ERRORS_NONE) {
+        emit_failure(start);
+        end_statement(start);
+        return;
+    }
+    lexer_start(line_start, line_end);
+    while (lexer_take(':')) {
+    }
+    while (lexer_now()->kind != LEXER_END) {
+        if (!compile_statement_of_program()) {
+            return;
+        }
+        while (lexer_take(':')) {
+        }
+    }
+}
+
+// Block comments; they start and end with a line.
+static bool is_comment(const char *text, const char *end) {
+    while (text < end && (*text == ' ' || *text == '\t')) {
+        text++;
+    }
+    bool comment = compiler.in_comment;
+    size_t length = (size_t)(end - text);
+    if (!comment && length >= 2 && memcmp(text, "/*", 2) == 0) {
+        comment = compiler.in_comment = true;
+        text += 2;
+    }
+    for (; comment && text + 1 < end; text++) {
+        if (text[0] == '*' && text[1] == '/') {
+            compiler.in_comment = false;
+        }
+    }
+    return comment;
+}
+
+static void each_line(const char *text, size_t length, void (*visit)(void)) {
+    const char *end = text + length;
+    compiler.in_comment = false;
+    compiler.line = 0;
+    while (text < end) {
+        const char *stop = memchr(text, '\n', (size_t)(end - text));
+        const char *next = stop != NULL ? stop + 1 : end;
+        stop = stop != NULL ? stop : end;
+        if (stop > text && stop[-1] == '\r') {
+            stop--;
+        }
+        compiler.line++;
+        if (!is_comment(text, stop)) {
+            line_start = text;
+            line_end = stop;
+            visit();
+        }
+        text = next;
+    }
+}
+
+// ---- Programs ------------------------------------------------------------------------------------
+
+// SUBs and FUNCTIONs are known before the first line is compiled, so that they can be called anywhere.
+static void declare_routine(void) {
+    lexer_start(line_start, line_end);
+    if (lexer_now()->kind == LEXER_NUMBER) {
+        lexer_next();
+    }
+    bool is_function = lexer_take_word("FUNCTION");
+    if ((!is_function && !lexer_take_word("SUB")) || lexer_now()->kind != LEXER_NAME) {
+        return;
+    }
+    const lexer_token_t *name = lexer_now();
+    symbols_t *symbol = symbols_get(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name));
+    if (symbol->routine == NULL) {
+        symbol->routine = symbols_memory(sizeof *symbol->routine);
+        symbol->routine->is_function = is_function;
+    }
+}
+
+// A line that cannot even be cut into words is reported when it is compiled.
+static void declare_routine_of_line(void) {
+    errors_try(declare_routine);
+}
+
+const uint8_t *compiler_program(const char *text, size_t length) {
+    memset(&compiler, 0, sizeof compiler);
+    symbols_clear();
+    symbols_set_program_mode(true);
+    emit_start_program();
+    names_start();
+    blocks_start();
+    names_set_default_type(VALUE_FLOAT);
+    uint32_t start = emit_here();
+    each_line(text, length, declare_routine_of_line);
+    each_line(text, length, compile_line_of_program);
+    close_all();
+    emit_op(OP_END);
+    compiler.line_number_stub = emit_stub(ERR_NO_LINE_NUMBER);
+    compiler.label_stub = emit_stub(ERR_NO_LABEL);
+    symbols_each_label(resolve_label);
+    symbols_set_program_mode(false);
+    actions_data_reset(compiler.first_data);
+    return memory.base + start;
+}
+
+const uint8_t *compiler_line(const char *text, size_t length) {
+    compiler.line = 0;
+    uint8_t *code = memory_scratch(LINE_CODE_SIZE);
+    emit_start_line(code, LINE_CODE_SIZE);
+    names_start();
+    blocks_start();
+    names_set_default_type(vm.default_type);
+    lexer_start(text, text + length);
+    const char *behind = lexer_now()->behind;
+    if (lexer_now()->kind == LEXER_NUMBER && lexer_now()->value.type == VALUE_INTEGER) {
+        lexer_next(); // a line number is no program here: only what follows counts
+        bool operator_follows = lexer_is_word("MOD") || lexer_is_word("AND") || lexer_is_word("OR") ||
+                                lexer_is_word("XOR");
+        if (lexer_now()->kind != LEXER_NAME || operator_follows) {
+            behind = text;
+        }
+        lexer_go(behind);
+    }
+    while (lexer_now()->kind != LEXER_END) {
+        if (!lexer_take(':')) {
+            compile_one();
+            emit_commit();
+        }
+    }
+    if (blocks_abandon() != NULL) {
+        errors_fail(ERR_NO_END_SUB);
+    }
+    emit_commit();
+    emit_op(OP_END);
+    return code;
+}

@@ -1,0 +1,44 @@
+// Turns source text into code, once: statement by statement, with names and jumps resolved. A statement
+// that does not compile becomes code that raises its error, so a fault shows when (and only if) the
+// program gets there. Context: main loop.
+#ifndef BASIC_COMPILER_H
+#define BASIC_COMPILER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// Compiles a program behind its text, which ends where the heap starts now. All names are new.
+// Returns the code. Ends by an error if the program is too long.
+const uint8_t *compiler_program(const char *text, size_t length);
+
+// Compiles a line typed at the prompt. Ends by an error if the line has one.
+const uint8_t *compiler_line(const char *text, size_t length);
+
+// ---- For the statements --------------------------------------------------------------------------
+
+// Compiles the statement at the token at hand, and goes to its end.
+void compiler_statement(void);
+
+// True while a line from the prompt is compiled.
+bool compiler_at_prompt(void);
+
+// Where the statement being compiled starts.
+uint32_t compiler_statement_start(void);
+
+// Ends the statement and starts another one, for those that jump before they compute.
+void compiler_new_statement(void);
+
+// Emits a jump (OP_JUMP, OP_GOSUB) to the label or line number at hand.
+void compiler_jump_to_label(int op);
+
+// The operand for a label whose place is not known yet, for RESTORE.
+void compiler_label_operand(void);
+
+// Remembers a DATA statement's operand; places of DATA are chained for READ.
+void compiler_link_data(void);
+
+// Makes the statement that starts at `place` raise this error, because its block was never closed.
+void compiler_spoil(uint32_t place, int code);
+
+#endif

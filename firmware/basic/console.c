@@ -1,0 +1,187 @@
+// The terminal. Context: main loop.
+#include "console.h"
+
+#include <string.h>
+
+#include "hal/hal.h"
+
+#define INPUT_SIZE 1024u // power of two; a paste waits here while a statement runs
+#define OUTPUT_SIZE 256u
+#define CTRL_C 3
+#define BLOCKED_RETRY_US 1000u
+
+// A program that never reads its input would hide Ctrl-C behind a full ring for ever.
+#define UNREAD_LIMIT_US 3000000u
+
+static struct {
+    uint8_t input[INPUT_SIZE];
+    unsigned received; // free-running
+    unsigned taken;
+    uint8_t output[OUTPUT_SIZE];
+    unsigned output_length;
+    unsigned column;
+    bool in_escape; // a VT100 sequence is being written; it does not move the column
+    bool running;
+    bool flushing;
+    bool break_pending;
+    bool lost_input;
+    uint64_t full_since_us; // 0: the ring is not full
+    void (*background)(void);
+} console;
+
+void console_start(void (*background)(void)) {
+    memset(&console, 0, sizeof console);
+    console.background = background;
+}
+
+void console_set_running(bool running) {
+    console.running = running;
+}
+
+bool console_break_pending(void) {
+    return console.break_pending;
+}
+
+void console_clear_break(void) {
+    console.break_pending = false;
+}
+
+static unsigned input_room(void) {
+    return INPUT_SIZE - (console.received - console.taken);
+}
+
+static void receive(uint8_t byte, bool watch_break) {
+    if (byte == CTRL_C && watch_break) {
+        console.break_pending = true;
+        console.taken = console.received;
+        return;
+    }
+    if (input_room() == 0) {
+        console.lost_input = true;
+        return;
+    }
+    console.input[console.received++ % INPUT_SIZE] = byte;
+}
+
+// How many bytes to fetch although the ring may be full.
+static unsigned fetch_limit(bool watch_break) {
+    unsigned room = input_room();
+    if (room != 0 || !watch_break) {
+        console.full_since_us = 0;
+        return room;
+    }
+    uint64_t now = hal_time_us() + 1;
+    if (console.full_since_us == 0) {
+        console.full_since_us = now;
+    }
+    return now - console.full_since_us > UNREAD_LIMIT_US ? INPUT_SIZE : 0;
+}
+
+void console_poll(void) {
+    bool watch_break = console.running || console.flushing;
+    uint8_t bytes[64];
+    for (;;) {
+        unsigned limit = fetch_limit(watch_break);
+        size_t count = limit == 0 ? 0 : hal_console_read(bytes, limit < sizeof bytes ? limit : sizeof bytes);
+        for (size_t i = 0; i < count; i++) {
+            receive(bytes[i], watch_break);
+        }
+        if (count == 0) {
+            return;
+        }
+    }
+}
+
+bool console_has_input(void) {
+    if (console.received == console.taken) {
+        console_poll();
+    }
+    return console.received != console.taken;
+}
+
+int console_take(void) {
+    if (!console_has_input()) {
+        return -1;
+    }
+    return console.input[console.taken++ % INPUT_SIZE];
+}
+
+void console_untake(int byte) {
+    console.input[--console.taken % INPUT_SIZE] = (uint8_t)byte;
+}
+
+bool console_lost_input(void) {
+    bool lost = console.lost_input;
+    console.lost_input = false;
+    return lost;
+}
+
+void console_flush(void) {
+    unsigned sent = 0;
+    console.flushing = true;
+    while (sent < console.output_length && !console.break_pending) {
+        size_t took = hal_console_write(console.output + sent, console.output_length - sent);
+        sent += (unsigned)took;
+        if (took == 0) {
+            console_poll();
+            console.background();
+            hal_idle(hal_time_us() + BLOCKED_RETRY_US);
+        }
+    }
+    console.flushing = false;
+    console.output_length = 0;
+}
+
+static void put(char c) {
+    if (console.output_length == OUTPUT_SIZE) {
+        console_flush();
+    }
+    console.output[console.output_length++] = (uint8_t)c;
+    if (console.in_escape) {
+        console.in_escape = c == '[' || (c >= '0' && c <= '9');
+    } else if (c == '\x1b') {
+        console.in_escape = true;
+    } else if (c == '\r') {
+        console.column = 0;
+    } else if (c == '\b') {
+        console.column -= console.column > 0;
+    } else if ((uint8_t)c >= ' ') {
+        console.column++;
+    }
+}
+
+void console_write(const char *text, size_t length) {
+    for (size_t i = 0; i < length; i++) {
+        put(text[i]);
+    }
+}
+
+void console_print(const char *text) {
+    console_write(text, strlen(text));
+}
+
+void console_new_line(void) {
+    console_write("\r\n", 2);
+}
+
+void console_fresh_line(void) {
+    if (console.column != 0) {
+        console_new_line();
+    }
+}
+
+unsigned console_column(void) {
+    return console.column;
+}
+
+void console_wait(uint64_t until_us) {
+    if (console.output_length != 0) {
+        console_flush();
+    }
+    console.background();
+    console_poll();
+    if (!console.break_pending) {
+        hal_idle(until_us);
+        console_poll();
+    }
+}

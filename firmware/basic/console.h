@@ -1,0 +1,58 @@
+// The terminal: received bytes in a ring, output in blocks, waiting with the background at work.
+// Context: main loop.
+#ifndef BASIC_CONSOLE_H
+#define BASIC_CONSOLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// `background` is called whenever the console waits.
+void console_start(void (*background)(void));
+
+// ---- Input ---------------------------------------------------------------------------------------
+
+// While a program or a command runs, Ctrl-C in the received bytes is not input but a request to stop,
+// which also throws away what was typed before it.
+void console_set_running(bool running);
+
+// Takes in what was received. Cheap if there is nothing.
+void console_poll(void);
+
+bool console_break_pending(void);
+void console_clear_break(void);
+
+// The next byte, or -1 if there is none.
+int console_take(void);
+
+// Puts the byte taken last back; at most one.
+void console_untake(int byte);
+
+// True if a byte is there.
+bool console_has_input(void);
+
+// True, once, if input was thrown away because a program did not read it.
+bool console_lost_input(void);
+
+// ---- Output --------------------------------------------------------------------------------------
+
+void console_write(const char *text, size_t length);
+void console_print(const char *text);
+
+// "\r\n", and the same only if the cursor is not at the start of a line.
+void console_new_line(void);
+void console_fresh_line(void);
+
+// Column of the next character, from 0.
+unsigned console_column(void);
+
+// Sends what has been gathered. A host that does not read is waited for; Ctrl-C ends the wait and
+// the output not sent yet is dropped.
+void console_flush(void);
+
+// ---- Waiting -------------------------------------------------------------------------------------
+
+// Sends pending output, lets the background work and sleeps until something happens or `until_us`.
+void console_wait(uint64_t until_us);
+
+#endif

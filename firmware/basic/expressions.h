@@ -1,0 +1,28 @@
+// Compiles expressions: a Pratt parser over a table of operators. Context: main loop, while compiling.
+#ifndef BASIC_EXPRESSIONS_H
+#define BASIC_EXPRESSIONS_H
+
+#include <stdint.h>
+
+#include "code.h"
+
+// An expression from the token at hand on. Errors: syntax, too complex.
+void expressions_compile(void);
+
+// An argument of a SUB or FUNCTION: a variable alone is passed by reference.
+void expressions_compile_argument(void);
+
+// `( a, b ... )` up to and with the closing parenthesis; returns how many there were.
+unsigned expressions_compile_subscripts(void);
+
+// Arguments of a routine up to the end of the statement or `)`; returns how many. Blanks are allowed
+// except as the first and the last. Errors: argument list.
+unsigned expressions_compile_arguments(int closing);
+
+// A variable or element to write to, as a reference on the stack.
+void expressions_compile_reference(void);
+
+// Forgets the nesting an error left.
+void expressions_start(void);
+
+#endif

@@ -1,0 +1,95 @@
+// The table of built-in functions. To add one: a row here, its declaration in functions.h, its body in
+// the file of its subject. Context: main loop.
+#include "functions.h"
+
+#include <string.h>
+
+#include "base/base.h"
+#include "errors.h"
+
+const functions_row_t functions_table[] = {
+    {"ABS", "n", 1, 1, functions_abs, "ABS(number): without its sign"},
+    {"ACOS", "f", 1, 1, functions_acos, "ACOS(number): angle in radians"},
+    {"ASC", "s", 1, 1, functions_asc, "ASC(text$): code of the first character, 0 for an empty text"},
+    {"ASIN", "f", 1, 1, functions_asin, "ASIN(number): angle in radians"},
+    {"ATAN2", "f", 2, 2, functions_atan2, "ATAN2(y, x): angle in radians"},
+    {"ATN", "f", 1, 1, functions_atn, "ATN(number): angle in radians"},
+    {"BIN$", "i", 1, 2, functions_bin, "BIN$(number [, digits])"},
+    {"BOUND", "ai", 1, 2, functions_bound, "BOUND(array() [, dimension]): highest subscript; 0: OPTION BASE"},
+    {"CHOICE", "fvv", 3, 3, functions_choice, "CHOICE(condition, if_true, if_false)"},
+    {"CHR$", "i", 1, 1, functions_chr, "CHR$(code)"},
+    {"CINT", "n", 1, 1, functions_cint, "CINT(number): nearest integer, halves away from zero"},
+    {"COS", "f", 1, 1, functions_cos, "COS(radians)"},
+    {"DEG", "f", 1, 1, functions_deg, "DEG(radians): degrees"},
+    {"EXP", "f", 1, 1, functions_exp, "EXP(number)"},
+    {"FIELD$", "siss", 2, 4, functions_field, "FIELD$(text$, number [, separators$ [, quotes$]])"},
+    {"FIX", "n", 1, 1, functions_fix, "FIX(number): without its decimals"},
+    {"FORMAT$", "fs", 1, 2, functions_format, "FORMAT$(number [, \"%8.3f\"])"},
+    {"HEX$", "i", 1, 2, functions_hex, "HEX$(number [, digits])"},
+    {"INKEY$", "", 0, 0, functions_inkey, "INKEY$: the next typed character or an empty text"},
+    {"INSTR", "vvs", 2, 3, functions_instr, "INSTR([start,] text$, pattern$): position or 0"},
+    {"INT", "n", 1, 1, functions_int, "INT(number): next integer below"},
+    {"LCASE$", "s", 1, 1, functions_lcase, "LCASE$(text$)"},
+    {"LEFT$", "si", 2, 2, functions_left, "LEFT$(text$, count)"},
+    {"LEN", "s", 1, 1, functions_len, "LEN(text$)"},
+    {"LOG", "f", 1, 1, functions_log, "LOG(number): natural logarithm"},
+    {"MAX", "f", 1, 10, functions_max, "MAX(number, number ...)"},
+    {"MID$", "si", 2, 3, functions_mid, "MID$(text$, start [, count])"},
+    {"MIN", "f", 1, 10, functions_min, "MIN(number, number ...)"},
+    {"MM.DEVICE$", "", 0, 0, functions_mm_device, "MM.DEVICE$: name of the board"},
+    {"MM.ERRMSG$", "", 0, 0, functions_mm_errmsg, "MM.ERRMSG$: text of the last error"},
+    {"MM.ERRNO", "", 0, 0, functions_mm_errno, "MM.ERRNO: 0 if there was no error"},
+    {"OCT$", "i", 1, 2, functions_oct, "OCT$(number [, digits])"},
+    {"PI", "", 0, 0, functions_pi, "PI"},
+    {"RAD", "f", 1, 1, functions_rad, "RAD(degrees): radians"},
+    {"RIGHT$", "si", 2, 2, functions_right, "RIGHT$(text$, count)"},
+    {"RND", "f", 0, 1, functions_rnd, "RND: a random number from 0 to below 1"},
+    {"SGN", "f", 1, 1, functions_sgn, "SGN(number): -1, 0 or 1"},
+    {"SIN", "f", 1, 1, functions_sin, "SIN(radians)"},
+    {"SPACE$", "i", 1, 1, functions_space, "SPACE$(count)"},
+    {"SQR", "f", 1, 1, functions_sqr, "SQR(number): square root"},
+    {"STR$", "niis", 1, 4, functions_str, "STR$(number [, width [, decimals [, filler$]]])"},
+    {"STRING$", "iv", 2, 2, functions_string, "STRING$(count, code or text$)"},
+    {"TAN", "f", 1, 1, functions_tan, "TAN(radians)"},
+    {"TIMER", "", 0, 0, functions_timer, "TIMER: milliseconds; TIMER = 0 sets it"},
+    {"TRIM$", "s", 1, 3, functions_trim, "TRIM$(text$ [, characters$ [, \"L\", \"R\" or \"B\"]])"},
+    {"UCASE$", "s", 1, 1, functions_ucase, "UCASE$(text$)"},
+    {"VAL", "s", 1, 1, functions_val, "VAL(text$): the number it starts with"},
+};
+
+const size_t functions_count = COUNT_OF_ARRAY(functions_table);
+
+static void convert(value_t *argument, char type) {
+    switch (type) {
+    case 'i':
+        value_set_integer(argument, value_to_integer(argument));
+        break;
+    case 'f':
+        value_set_number(argument, value_to_number(argument));
+        break;
+    case 'n':
+        if (!value_is_numeric(argument)) {
+            errors_fail(ERR_EXPECTED_NUMBER);
+        }
+        break;
+    case 's':
+        if (argument->type != VALUE_STRING) {
+            errors_fail(ERR_EXPECTED_STRING);
+        }
+        break;
+    default:
+        break;
+    }
+}
+
+void functions_evaluate(unsigned row, value_t *values, unsigned count) {
+    const functions_row_t *function = &functions_table[row];
+    const char *type = function->types;
+    for (unsigned i = 0; i < count; i++) {
+        convert(&values[i], *type);
+        type += type[1] != '\0';
+    }
+    value_t result = {.integer = 0, .type = VALUE_INTEGER};
+    function->evaluate(values, count, &result);
+    values[0] = result;
+}

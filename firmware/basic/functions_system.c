@@ -1,0 +1,78 @@
+// Functions of the machine and of the program itself. Context: main loop.
+#include <math.h>
+#include <string.h>
+
+#include "console.h"
+#include "errors.h"
+#include "functions.h"
+#include "hal/hal.h"
+#include "variables.h"
+#include "vm.h"
+
+#define FUNCTION(name) void functions_##name(value_t *arguments, unsigned count, value_t *result)
+#define ERRNO_GENERAL 16 // MMBasic's number for nearly all errors
+
+static double timer_offset_ms;
+
+static double now_ms(void) {
+    return (double)hal_time_us() / 1000.0;
+}
+
+void functions_set_timer(double value_ms) {
+    timer_offset_ms = value_ms - now_ms();
+}
+
+FUNCTION(timer) {
+    (void)arguments;
+    (void)count;
+    value_set_number(result, now_ms() + timer_offset_ms);
+}
+
+FUNCTION(inkey) {
+    (void)arguments;
+    (void)count;
+    int byte = console_take();
+    char *key = memory_text(1);
+    *key = (char)byte;
+    value_set_text(result, key, byte < 0 ? 0 : 1);
+}
+
+FUNCTION(mm_device) {
+    (void)arguments;
+    (void)count;
+    value_set_text(result, hal_board_name(), strlen(hal_board_name()));
+}
+
+FUNCTION(mm_errmsg) {
+    (void)arguments;
+    (void)count;
+    value_set_text(result, vm.error_text, strlen(vm.error_text));
+}
+
+FUNCTION(mm_errno) {
+    (void)arguments;
+    (void)count;
+    value_set_integer(result, vm.error_text[0] != '\0' ? ERRNO_GENERAL : 0);
+}
+
+FUNCTION(bound) {
+    if (arguments[0].type != VALUE_ARRAY) {
+        errors_fail(ERR_ARRAY_DIMENSIONS);
+    }
+    const variables_array_t *array = arguments[0].data;
+    int64_t dimension = count > 1 ? arguments[1].integer : 1;
+    if (dimension == 0) {
+        value_set_integer(result, array->base);
+        return;
+    }
+    if (dimension < 0 || dimension > array->dimensions) {
+        errors_fail(ERR_DIMENSIONS);
+    }
+    value_set_integer(result, array->extent[dimension - 1] + (int64_t)array->base - 1);
+}
+
+// The condition is truncated: 0.9 is false here, unlike in IF.
+FUNCTION(choice) {
+    (void)count;
+    *result = arguments[trunc(arguments[0].number) != 0.0 ? 1 : 2];
+}

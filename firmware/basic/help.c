@@ -1,0 +1,216 @@
+// HELP, made of the tables of statements, functions and the configuration's rows. Context: main loop.
+#include "help.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "args.h"
+#include "choices.h"
+#include "console.h"
+#include "errors.h"
+#include "functions.h"
+#include "lexer.h"
+#include "number_text.h"
+#include "statements.h"
+
+#define LINE_WIDTH 78u
+
+static const basic_config_t *config;
+
+void help_start(const basic_config_t *new_config) {
+    config = new_config;
+}
+
+static void print_line(const char *text) {
+    console_print(text);
+    console_new_line();
+}
+
+// Names side by side, wrapped.
+static void print_word(const char *word) {
+    if (console_column() + strlen(word) + 2 > LINE_WIDTH) {
+        console_new_line();
+    }
+    console_print(console_column() == 0 ? "  " : ", ");
+    console_print(word);
+}
+
+static void print_overview(void) {
+    print_line("Commands of the machine:");
+    for (size_t i = 0; i < config->command_count; i++) {
+        print_word(config->commands[i].name);
+    }
+    console_fresh_line();
+    print_line("Statements:");
+    for (size_t i = 0; i < statements_count; i++) {
+        if (statements_table[i].usage != NULL) {
+            print_word(statements_table[i].name);
+        }
+    }
+    console_fresh_line();
+    print_line("Functions:");
+    for (size_t i = 0; i < config->function_count; i++) {
+        if (i == 0 || strcmp(config->functions[i].name, config->functions[i - 1].name) != 0) {
+            print_word(config->functions[i].name);
+        }
+    }
+    for (size_t i = 0; i < functions_count; i++) {
+        print_word(functions_table[i].name);
+    }
+    console_fresh_line();
+    print_line("HELP name tells more, for instance HELP PRINT.");
+}
+
+static bool is_optional(const basic_arg_spec_t *spec) {
+    return (spec->flags & (BASIC_ARG_OPTIONAL | BASIC_ARG_DEFAULT)) != 0;
+}
+
+static void print_usage(const basic_arg_spec_t *args, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        bool bracket = is_optional(&args[i]) || args[i].flags & BASIC_ARG_REPEAT;
+        console_print(bracket ? " [" : "");
+        console_print(i > 0 ? ", " : bracket ? "" : " ");
+        console_print(args[i].name);
+        console_print(args[i].flags & BASIC_ARG_REPEAT ? " ...]" : bracket ? "]" : "");
+    }
+}
+
+static const char *kind_text(basic_arg_kind_t kind) {
+    switch (kind) {
+    case BASIC_ARG_TEXT:
+        return "a string";
+    case BASIC_ARG_WORD:
+        return "a word or a string";
+    case BASIC_ARG_PIN:
+        return "a pin: GP0 to GP28, or its number";
+    case BASIC_ARG_RAW:
+        return "the rest of the line";
+    default:
+        return "a number";
+    }
+}
+
+static void print_argument(const basic_arg_spec_t *spec) {
+    char text[200];
+    char range[80];
+    if (spec->kind == BASIC_ARG_CHOICE) {
+        choices_list(spec->choices, range, sizeof range);
+    } else if (spec->kind <= BASIC_ARG_INTEGER && (spec->min != 0.0 || spec->max != 0.0)) {
+        args_describe_range(spec, range, sizeof range);
+    } else {
+        snprintf(range, sizeof range, "%s", kind_text(spec->kind));
+    }
+    char fallback[NUMBER_TEXT_SIZE] = "";
+    if (spec->flags & BASIC_ARG_DEFAULT) {
+        args_format_limit(fallback, spec->fallback);
+    }
+    snprintf(text, sizeof text, "  %-16s %s%s%s%s%s%s%s%s", spec->name, range, spec->unit != NULL ? " " : "",
+             spec->unit != NULL ? spec->unit : "", *fallback != '\0' ? ", default " : "", fallback,
+             is_optional(spec) && *fallback == '\0' ? ", optional" : "", spec->help != NULL ? ": " : "",
+             spec->help != NULL ? spec->help : "");
+    print_line(text);
+}
+
+static void print_arguments(const basic_arg_spec_t *args, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        print_argument(&args[i]);
+    }
+}
+
+static void print_help_sentence(const char *help) {
+    if (help != NULL) {
+        console_print("  ");
+        print_line(help);
+    }
+}
+
+static void print_command(const basic_command_t *row) {
+    console_print(row->name);
+    print_usage(row->args, row->arg_count);
+    console_new_line();
+    print_help_sentence(row->help);
+    print_arguments(row->args, row->arg_count);
+}
+
+static void print_function(const basic_function_t *row) {
+    console_print(row->name);
+    console_print("(");
+    console_print(row->keyword != NULL ? row->keyword : "");
+    print_usage(row->args, row->arg_count);
+    print_line(")");
+    print_help_sentence(row->help);
+    print_arguments(row->args, row->arg_count);
+}
+
+static char upper(char c) {
+    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
+}
+
+// True if `name` starts with the topic and a word ends there.
+static bool starts_with(const char *name, const char *topic, size_t length) {
+    for (size_t i = 0; i < length; i++) {
+        if (upper(name[i]) != upper(topic[i])) { // the end of `name` differs as well
+            return false;
+        }
+    }
+    return name[length] == ' ' || name[length] == '\0';
+}
+
+// Rows whose name is the topic are explained; rows it only starts are listed.
+static bool print_commands(const char *topic, size_t length) {
+    bool found = false;
+    bool listed = false;
+    for (size_t i = 0; i < config->command_count; i++) {
+        const basic_command_t *row = &config->commands[i];
+        if (!starts_with(row->name, topic, length)) {
+            continue;
+        }
+        if (strlen(row->name) == length) {
+            print_command(row);
+        } else {
+            print_word(row->name);
+            listed = true;
+        }
+        found = true;
+    }
+    if (listed) {
+        console_fresh_line();
+    }
+    return found;
+}
+
+static bool print_language(const char *topic, size_t length) {
+    bool found = false;
+    for (size_t i = 0; i < statements_count; i++) {
+        const statements_row_t *row = &statements_table[i];
+        if (row->usage != NULL && lexer_same(topic, length, row->name)) {
+            print_line(row->usage);
+            print_help_sentence(row->help);
+            found = true;
+        }
+    }
+    for (size_t i = 0; i < functions_count; i++) {
+        if (lexer_same(topic, length, functions_table[i].name)) {
+            print_line(functions_table[i].help);
+            found = true;
+        }
+    }
+    for (size_t i = 0; i < config->function_count; i++) {
+        if (lexer_same(topic, length, config->functions[i].name)) {
+            print_function(&config->functions[i]);
+            found = true;
+        }
+    }
+    return found;
+}
+
+void help_print(const char *topic, size_t length) {
+    if (length == 0) {
+        print_overview();
+        return;
+    }
+    bool command = print_commands(topic, length);
+    if (!print_language(topic, length) && !command) {
+        errors_fail_with(ERR_ARGUMENT, "No help for %.*s", (int)length, topic);
+    }
+}

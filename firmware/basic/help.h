@@ -1,0 +1,14 @@
+// HELP: what the tables say about a command. Context: main loop.
+#ifndef BASIC_HELP_H
+#define BASIC_HELP_H
+
+#include <stddef.h>
+
+#include "basic/basic.h"
+
+void help_start(const basic_config_t *config);
+
+// Prints the list of commands for an empty topic, otherwise what there is about it.
+void help_print(const char *topic, size_t length);
+
+#endif

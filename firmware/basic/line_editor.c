@@ -1,0 +1,357 @@
+// The line editor. Echo goes through the console's block, which is sent when the input pauses, so a
+// pasted line costs one write. Context: main loop.
+#include "line_editor.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "console.h"
+#include "hal/hal.h"
+#include "history.h"
+
+#define SCREEN_WIDTH 80u
+#define ESCAPE_WAIT_US 50000u // an Escape without a sequence behind it is a key of its own
+
+enum {
+    KEY_CTRL_A = 1,
+    KEY_CTRL_C = 3,
+    KEY_CTRL_E = 5,
+    KEY_BACKSPACE = 8,
+    KEY_TAB = 9,
+    KEY_LINE_FEED = 10,
+    KEY_RETURN = 13,
+    KEY_CTRL_U = 21,
+    KEY_CTRL_X = 24,
+    KEY_CTRL_Z = 26,
+    KEY_ESCAPE = 27,
+    KEY_DELETE_BACK = 127,
+    KEY_UP = 256,
+    KEY_DOWN,
+    KEY_LEFT,
+    KEY_RIGHT,
+    KEY_HOME,
+    KEY_END,
+    KEY_INSERT,
+    KEY_DELETE,
+    KEY_F1,
+    KEY_F2,
+    KEY_NONE,
+    KEY_NO_INPUT,
+};
+
+static struct {
+    char line[LINE_EDITOR_MAX + 1];
+    size_t length;
+    size_t cursor;
+    const line_editor_options_t *options;
+    bool overwrite;
+    bool too_long;
+    bool skip_line_feed; // the last line ended with a carriage return
+    bool active;
+    unsigned age; // lines back in the history, 0: the line being typed
+} editor;
+
+void line_editor_start(void) {
+    history_clear();
+    memset(&editor, 0, sizeof editor);
+}
+
+// ---- Screen --------------------------------------------------------------------------------------
+
+static void move_left(size_t columns) {
+    if (columns == 0) {
+        return;
+    }
+    char sequence[16];
+    snprintf(sequence, sizeof sequence, "\x1b[%uD", (unsigned)columns);
+    console_print(columns == 1 ? "\b" : sequence);
+}
+
+// Draws the line from `from` on and leaves the screen's cursor at editor.cursor.
+static void draw_from(size_t from) {
+    console_write(editor.line + from, editor.length - from);
+    console_print("\x1b[K");
+    move_left(editor.length - editor.cursor);
+}
+
+static void set_cursor(size_t place) {
+    if (place < editor.cursor) {
+        move_left(editor.cursor - place);
+    } else {
+        console_write(editor.line + editor.cursor, place - editor.cursor);
+    }
+    editor.cursor = place;
+}
+
+bool line_editor_hide(void) {
+    if (!editor.active) {
+        return false;
+    }
+    size_t rows = (strlen(editor.options->prompt) + editor.cursor) / SCREEN_WIDTH;
+    while (rows-- > 0) {
+        console_print("\x1b[A");
+    }
+    console_print("\r\x1b[J");
+    return true;
+}
+
+void line_editor_show(void) {
+    console_print(editor.options->prompt);
+    console_write(editor.line, editor.length);
+    move_left(editor.length - editor.cursor);
+    console_flush();
+}
+
+static void replace_line(const char *text, size_t length) {
+    set_cursor(0);
+    memcpy(editor.line, text, length);
+    editor.length = editor.cursor = length;
+    draw_from(0);
+}
+
+// ---- Keys ----------------------------------------------------------------------------------------
+
+static int wait_byte(uint64_t until_us) {
+    for (;;) {
+        int byte = console_take();
+        if (byte >= 0) {
+            return byte;
+        }
+        if (console_break_pending() || hal_end_of_input() || hal_time_us() >= until_us) {
+            return -1;
+        }
+        console_wait(until_us);
+    }
+}
+
+static int key_of_number(unsigned number) {
+    switch (number) {
+    case 1:
+    case 7:
+        return KEY_HOME;
+    case 2:
+        return KEY_INSERT;
+    case 3:
+        return KEY_DELETE;
+    case 4:
+    case 8:
+        return KEY_END;
+    case 11:
+        return KEY_F1;
+    case 12:
+        return KEY_F2;
+    default:
+        return KEY_NONE;
+    }
+}
+
+static int key_of_letter(int letter) {
+    switch (letter) {
+    case 'A':
+        return KEY_UP;
+    case 'B':
+        return KEY_DOWN;
+    case 'C':
+        return KEY_RIGHT;
+    case 'D':
+        return KEY_LEFT;
+    case 'H':
+        return KEY_HOME;
+    case 'F':
+        return KEY_END;
+    case 'P':
+        return KEY_F1;
+    case 'Q':
+        return KEY_F2;
+    default:
+        return KEY_NONE;
+    }
+}
+
+// The rest of a VT100 sequence. A byte that cannot belong to one is left for the next key.
+static int read_sequence(void) {
+    uint64_t until_us = hal_time_us() + ESCAPE_WAIT_US;
+    int byte = wait_byte(until_us);
+    if (byte != '[' && byte != 'O') {
+        if (byte >= 0) {
+            console_untake(byte);
+        }
+        return KEY_NONE;
+    }
+    unsigned number = 0;
+    for (;;) {
+        byte = wait_byte(until_us);
+        if (byte >= '0' && byte <= '9') {
+            number = number < 1000 ? number * 10 + (unsigned)(byte - '0') : number;
+        } else if (byte == '~') {
+            return key_of_number(number);
+        } else if (byte != ';') {
+            break;
+        }
+    }
+    if (byte >= 0 && byte < ' ') {
+        console_untake(byte);
+        return KEY_NONE;
+    }
+    return key_of_letter(byte);
+}
+
+static int read_key(void) {
+    int byte = wait_byte(UINT64_MAX);
+    if (byte < 0) {
+        return KEY_NO_INPUT;
+    }
+    bool second_of_pair = byte == KEY_LINE_FEED && editor.skip_line_feed;
+    editor.skip_line_feed = byte == KEY_RETURN;
+    if (second_of_pair) {
+        return KEY_NONE;
+    }
+    return byte == KEY_ESCAPE ? read_sequence() : byte;
+}
+
+// ---- Editing -------------------------------------------------------------------------------------
+
+static void insert(char c) {
+    bool replaces = editor.overwrite && editor.cursor < editor.length;
+    if (!replaces && editor.length == LINE_EDITOR_MAX) {
+        editor.too_long = true;
+        return;
+    }
+    if (!replaces) {
+        memmove(editor.line + editor.cursor + 1, editor.line + editor.cursor, editor.length - editor.cursor);
+        editor.length++;
+    }
+    editor.line[editor.cursor++] = c;
+    if (editor.cursor == editor.length) {
+        console_write(&c, 1);
+    } else {
+        draw_from(editor.cursor - 1);
+    }
+}
+
+static void delete_at_cursor(void) {
+    if (editor.cursor < editor.length) {
+        memmove(editor.line + editor.cursor, editor.line + editor.cursor + 1,
+                editor.length - editor.cursor - 1);
+        editor.length--;
+        draw_from(editor.cursor);
+    }
+}
+
+static void recall(int step) {
+    if (!editor.options->history || (step < 0 && editor.age == 0)) {
+        return;
+    }
+    char line[LINE_EDITOR_MAX];
+    unsigned age = editor.age + (unsigned)step;
+    size_t length = age == 0 ? 0 : history_get(age, line, sizeof line);
+    if (age != 0 && length == 0) {
+        return;
+    }
+    editor.age = age;
+    replace_line(line, length);
+}
+
+static void edit(int key) {
+    switch (key) {
+    case KEY_LEFT:
+        set_cursor(editor.cursor > 0 ? editor.cursor - 1 : 0);
+        break;
+    case KEY_RIGHT:
+        set_cursor(editor.cursor < editor.length ? editor.cursor + 1 : editor.cursor);
+        break;
+    case KEY_HOME:
+    case KEY_CTRL_A:
+        set_cursor(0);
+        break;
+    case KEY_END:
+        set_cursor(editor.length);
+        break;
+    case KEY_INSERT:
+        editor.overwrite = !editor.overwrite;
+        break;
+    case KEY_BACKSPACE:
+    case KEY_DELETE_BACK:
+        if (editor.cursor > 0) {
+            set_cursor(editor.cursor - 1);
+            delete_at_cursor();
+        }
+        break;
+    case KEY_DELETE:
+        delete_at_cursor();
+        break;
+    case KEY_CTRL_U:
+        replace_line("", 0);
+        break;
+    case KEY_UP:
+    case KEY_CTRL_E:
+        recall(1);
+        break;
+    case KEY_DOWN:
+    case KEY_CTRL_X:
+        recall(-1);
+        break;
+    case KEY_TAB:
+        insert(editor.options->keep_tabs ? '\t' : ' ');
+        break;
+    default:
+        if (key >= ' ' && key <= 255) { // other control bytes are noise
+            insert((char)key);
+        }
+        break;
+    }
+}
+
+static line_editor_result_t finish(line_editor_result_t result) {
+    console_new_line();
+    editor.active = false;
+    editor.line[editor.length] = '\0';
+    if (editor.too_long && result != LINE_EDITOR_BREAK) {
+        return LINE_EDITOR_TOO_LONG;
+    }
+    if (result == LINE_EDITOR_LINE && editor.options->history) {
+        history_add(editor.line, editor.length);
+    }
+    return result;
+}
+
+line_editor_result_t line_editor_read(const line_editor_options_t *options, const char **line,
+                                      size_t *length) {
+    editor.options = options;
+    editor.length = editor.cursor = 0;
+    editor.age = 0;
+    editor.overwrite = editor.too_long = false;
+    editor.active = true;
+    console_print(options->prompt);
+    line_editor_result_t result;
+    for (;;) {
+        int key = read_key();
+        if (key == KEY_RETURN || key == KEY_LINE_FEED) {
+            result = finish(LINE_EDITOR_LINE);
+            break;
+        }
+        if (key == KEY_CTRL_C || console_break_pending()) {
+            editor.length = 0;
+            result = finish(LINE_EDITOR_BREAK);
+            break;
+        }
+        if (key == KEY_CTRL_Z || key == KEY_F1) {
+            result = finish(LINE_EDITOR_FINISHED);
+            break;
+        }
+        if (key == KEY_F2) {
+            result = finish(LINE_EDITOR_FINISHED_RUN);
+            break;
+        }
+        if (key == KEY_NO_INPUT) {
+            editor.active = false;
+            bool partial = editor.length > 0 || editor.too_long;
+            result = partial ? finish(LINE_EDITOR_LINE) : LINE_EDITOR_END;
+            break;
+        }
+        edit(key);
+    }
+    *line = editor.line;
+    *length = editor.length;
+    return result;
+}

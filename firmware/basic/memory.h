@@ -1,0 +1,62 @@
+// The arena: everything the interpreter remembers, without a heap of its own.
+//
+//   | stack of values | frames | program text | code | heap -> ...... <- scratch | program's names |
+//
+// The heap grows upwards and holds what lasts until the next RUN (arrays, strings, names from the
+// prompt). The scratch grows downwards and is unwound: local variables at the end of a SUB, temporary
+// strings at the end of a statement. Nothing is ever freed in the middle, so nothing fragments.
+// Context: main loop.
+#ifndef BASIC_MEMORY_H
+#define BASIC_MEMORY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "value.h"
+
+typedef struct {
+    uint8_t *base;         // of the arena; 8-aligned
+    uint8_t *floor;        // where the program text starts
+    uint8_t *heap;         // next byte of the heap
+    uint8_t *scratch;      // lowest byte of the scratch
+    uint8_t *top;          // end of the arena
+    value_t *values;       // the stack
+    value_t *values_limit; // one behind its last place
+} memory_t;
+
+extern memory_t memory;
+
+// Takes the arena. What does not fit the 16-bit handles (256 KB) stays unused.
+void memory_start(void *arena, size_t size);
+
+// Forgets everything above `floor` (within the arena; rounded up) and the whole scratch.
+void memory_reset(uint8_t *floor);
+
+// Aligns the heap after code was written to it.
+void memory_reset_heap(void);
+
+// Zeroed, 8-aligned. Error: not enough memory.
+void *memory_heap(size_t size);
+void *memory_scratch(size_t size);
+
+// Bytes for a temporary string, not aligned and not zeroed.
+char *memory_text(size_t size);
+
+// A byte offset from the base in three bytes, and back; how code names places in code.
+static inline uint32_t memory_offset(const void *place) {
+    return (uint32_t)((const uint8_t *)place - memory.base);
+}
+
+// An 8-aligned place in 15 bits; how code names variables and procedures.
+static inline uint16_t memory_handle(const void *place) {
+    return (uint16_t)(memory_offset(place) / 8);
+}
+
+static inline void *memory_place(uint16_t handle) {
+    return memory.base + (size_t)handle * 8;
+}
+
+// Bytes between heap and scratch.
+size_t memory_free(void);
+
+#endif

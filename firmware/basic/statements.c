@@ -1,0 +1,198 @@
+// The table of statements. To add one: a row here, its declaration in statements.h, its compile
+// function in the file of its subject and, if it does something of its own at run time, an action.
+// Context: main loop, while compiling.
+#include "statements.h"
+
+#include "base/base.h"
+#include "compiler.h"
+#include "emit.h"
+#include "errors.h"
+#include "expressions.h"
+#include "lexer.h"
+#include "memory.h"
+#include "names.h"
+#include "symbols.h"
+#include "words.h"
+
+const statements_row_t statements_table[] = {
+    {"AUTOSAVE", statements_autosave, "AUTOSAVE", "Takes a program pasted or typed, up to Ctrl-Z or F1"},
+    {"CASE", statements_case, NULL, NULL},
+    {"CONST", statements_const, "CONST name = value [, ...]", "Names a value that cannot change"},
+    {"CONTINUE", statements_continue, "CONTINUE FOR|DO", "Goes on with the next turn of a loop"},
+    {"DATA", statements_data, "DATA value [, ...]", "Values for READ"},
+    {"DIM", statements_dim, "DIM [type] name[(size, ...)] [AS type] [LENGTH n] [= value] [, ...]",
+     "Declares variables and arrays"},
+    {"DO", statements_do, "DO [WHILE|UNTIL condition] ... LOOP [WHILE|UNTIL condition]", "Repeats"},
+    {"ELSE", statements_else, NULL, NULL},
+    {"ELSEIF", statements_elseif, NULL, NULL},
+    {"END", statements_end, "END", "Ends the program"},
+    {"ENDIF", statements_endif, NULL, NULL},
+    {"ERROR", statements_error, "ERROR [text$]", "Raises an error"},
+    {"EXIT", statements_exit, "EXIT FOR|DO|SUB|FUNCTION", "Leaves a loop or a routine"},
+    {"FOR", statements_for, "FOR name = first TO last [STEP step] ... NEXT [name]", "Counts"},
+    {"FUNCTION", statements_function, "FUNCTION name(parameters) ... END FUNCTION",
+     "Defines a function; its value is assigned to its name"},
+    {"GOSUB", statements_gosub, "GOSUB label", "Calls lines that end with RETURN"},
+    {"GOTO", statements_goto, "GOTO label", "Goes on at a label or line number"},
+    {"HELP", statements_help, "HELP [command]", "Explains a command; alone, lists them"},
+    {"IF", statements_if, "IF condition THEN ... [ELSEIF condition THEN ...] [ELSE ...] ENDIF", "Decides"},
+    {"INC", statements_inc, "INC name [, amount]", "Adds to a variable"},
+    {"INPUT", statements_input, "INPUT [\"prompt\";] name [, ...]", "Reads values from the terminal"},
+    {"LET", statements_let, "[LET] name = value", "Assigns"},
+    {"LINE", statements_line, "LINE INPUT [prompt$,] name$", "Reads a line from the terminal"},
+    {"LIST", statements_list, "LIST [ALL]", "Shows the program"},
+    {"LOCAL", statements_local, "LOCAL [type] name ...", "As DIM, for this SUB or FUNCTION only"},
+    {"LOOP", statements_loop, NULL, NULL},
+    {"MEMORY", statements_memory, "MEMORY", "Shows how much memory is in use"},
+    {"NEW", statements_new, "NEW", "Deletes the program and all variables"},
+    {"NEXT", statements_next, NULL, NULL},
+    {"ON", statements_on, "ON n GOTO|GOSUB label, ... / ON ERROR ABORT|IGNORE|SKIP [n]|CLEAR",
+     "Chooses a label / says what errors do"},
+    {"OPTION", statements_option, "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1",
+     "Sets how variables are declared"},
+    {"PAUSE", statements_pause, "PAUSE milliseconds", "Waits"},
+    {"PRINT", statements_print, "PRINT value [;|, ...]", "Writes to the terminal; ? for short"},
+    {"RANDOMIZE", statements_randomize, "RANDOMIZE [seed]", "Starts the sequence of RND"},
+    {"READ", statements_read, "READ name [, ...]", "Takes the next values of DATA"},
+    {"REM", statements_rem, "REM text", "A comment; ' for short"},
+    {"RESTORE", statements_restore, "RESTORE [label]", "READ starts over"},
+    {"RETURN", statements_return, NULL, NULL},
+    {"RUN", statements_run, "RUN", "Runs the program"},
+    {"SELECT", statements_select, "SELECT CASE value ... CASE a, b TO c, IS < d ... CASE ELSE ... END SELECT",
+     "Decides among many"},
+    {"SUB", statements_sub, "SUB name [parameters] ... END SUB", "Defines a command"},
+    {"TIMER", statements_timer, "TIMER = milliseconds", "Sets the clock that TIMER reads"},
+    {"WEND", statements_wend, NULL, NULL},
+    {"WHILE", statements_while, "WHILE condition ... LOOP or WEND", "As DO WHILE"},
+};
+
+const size_t statements_count = COUNT_OF_ARRAY(statements_table);
+
+static void compile_assignment(void) {
+    lexer_token_t name = *lexer_now();
+    if (words_is_reserved(name.text, name.length) ||
+        words_find(WORDS_FUNCTION, name.text, name.length) != WORDS_NONE) {
+        errors_fail(ERR_SYNTAX);
+    }
+    uint8_t check_type;
+    uint16_t variable = names_variable(&name, &check_type);
+    if (check_type != VALUE_NONE) {
+        emit_variable(OP_CHECK_TYPE, variable);
+        emit_byte(check_type);
+    }
+    lexer_next();
+    if (lexer_is('(')) {
+        unsigned count = expressions_compile_subscripts();
+        lexer_expect('=');
+        expressions_compile();
+        emit_element(OP_STORE_ELEMENT, variable, count);
+    } else {
+        lexer_expect('=');
+        expressions_compile();
+        emit_variable(OP_STORE, variable);
+    }
+}
+
+void statements_let(void) {
+    if (lexer_now()->kind != LEXER_NAME) {
+        errors_fail(ERR_SYNTAX);
+    }
+    compile_assignment();
+}
+
+// Where the parenthesis at the token at hand closes, as a place behind it; NULL: it does not.
+static const char *behind_parentheses(void) {
+    unsigned depth = 0;
+    const char *start = lexer_now()->text;
+    const char *behind = NULL;
+    while (lexer_now()->kind != LEXER_END && behind == NULL) {
+        depth += lexer_is('(');
+        depth -= lexer_is(')');
+        if (depth == 0) {
+            behind = lexer_now()->behind;
+        }
+        lexer_next();
+    }
+    lexer_go(start);
+    return behind;
+}
+
+// name = ... or name(...) = ...
+static bool is_assignment(void) {
+    const char *start = lexer_now()->text;
+    lexer_next();
+    if (lexer_is('(')) {
+        const char *behind = behind_parentheses();
+        if (behind != NULL) {
+            lexer_go(behind);
+        }
+    }
+    bool found = lexer_is('=');
+    lexer_go(start);
+    return found;
+}
+
+// `name a, b` or `name(a, b)`.
+static void compile_sub_call(symbols_t *symbol) {
+    if (symbol->routine->is_function) {
+        errors_fail(ERR_SYNTAX);
+    }
+    emit_op(OP_BLANK);
+    lexer_next();
+    unsigned count;
+    const char *behind = lexer_is('(') ? behind_parentheses() : NULL;
+    bool enclosed = false;
+    if (behind != NULL) {
+        const char *start = lexer_now()->text;
+        lexer_go(behind);
+        enclosed = lexer_at_end();
+        lexer_go(start);
+    }
+    if (enclosed) {
+        lexer_next();
+        count = expressions_compile_arguments(')');
+        lexer_expect(')');
+    } else {
+        count = expressions_compile_arguments(0);
+    }
+    emit_op(OP_CALL);
+    emit_u16(memory_handle(symbol));
+    emit_byte(count);
+}
+
+// True if the line can only be meant as an expression: it opens with a value, or a name that exists.
+static bool is_expression(void) {
+    const lexer_token_t *token = lexer_now();
+    if (token->kind != LEXER_NAME) {
+        return token->kind == LEXER_NUMBER || token->kind == LEXER_STRING || lexer_is('(') ||
+               lexer_is('-') || lexer_is('+');
+    }
+    size_t length = lexer_bare_length(token);
+    return lexer_is_word("NOT") || lexer_is_word("INV") ||
+           words_find(WORDS_FUNCTION, token->text, token->length) != WORDS_NONE ||
+           words_find(WORDS_HOST_FUNCTION, token->text, token->length) != WORDS_NONE ||
+           symbols_find(SYMBOLS_VARIABLE, 0, token->text, length) != NULL ||
+           symbols_find(SYMBOLS_ROUTINE, 0, token->text, length) != NULL;
+}
+
+bool statements_compile_other(void) {
+    const lexer_token_t *token = lexer_now();
+    if (token->kind == LEXER_NAME) {
+        if (is_assignment()) {
+            compile_assignment();
+            return true;
+        }
+        symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, token->text, lexer_bare_length(token));
+        if (symbol != NULL && !symbol->routine->is_function) {
+            compile_sub_call(symbol);
+            return true;
+        }
+    }
+    if (compiler_at_prompt() && is_expression()) {
+        expressions_compile();
+        emit_action(ACTIONS_PRINT_VALUE, 1);
+        emit_action(ACTIONS_PRINT_LINE, 0);
+        return true;
+    }
+    return false;
+}

@@ -1,0 +1,77 @@
+// CONST, INC, DATA, READ, RESTORE, DIM and REM. Context: main loop, while compiling.
+#include "compiler.h"
+#include "declare.h"
+#include "emit.h"
+#include "errors.h"
+#include "expressions.h"
+#include "lexer.h"
+#include "names.h"
+#include "statements.h"
+#include "words.h"
+
+void statements_dim(void) {
+    declare_compile(false);
+}
+
+void statements_const(void) {
+    do {
+        lexer_token_t name = *lexer_now();
+        if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length) ||
+            words_find(WORDS_FUNCTION, name.text, name.length) != WORDS_NONE) {
+            errors_fail(ERR_SYNTAX);
+        }
+        lexer_next();
+        lexer_expect('=');
+        uint8_t type = lexer_suffix_type(name.suffix);
+        expressions_compile();
+        emit_integer(type);
+        emit_integer(names_global(&name, type));
+        emit_action(ACTIONS_CONST, 3);
+    } while (lexer_take(','));
+}
+
+void statements_inc(void) {
+    expressions_compile_reference();
+    if (lexer_take(',')) {
+        expressions_compile();
+    } else {
+        emit_integer(1);
+    }
+    emit_action(ACTIONS_INC, 2);
+}
+
+// The items stay text; READ cuts them.
+void statements_data(void) {
+    const char *start = lexer_now()->text;
+    if (lexer_now()->kind == LEXER_STRING) {
+        start--;
+    }
+    const char *behind = start;
+    while (!lexer_at_end()) {
+        behind = lexer_now()->behind;
+        lexer_next();
+    }
+    emit_op(OP_DATA);
+    compiler_link_data();
+    emit_text(start, (size_t)(behind - start));
+}
+
+void statements_read(void) {
+    do {
+        expressions_compile_reference();
+        emit_action(ACTIONS_READ, 1);
+    } while (lexer_take(','));
+}
+
+void statements_restore(void) {
+    if (lexer_at_end()) {
+        emit_action(ACTIONS_RESTORE, 0);
+    } else {
+        compiler_label_operand();
+        emit_action(ACTIONS_RESTORE, 1);
+    }
+}
+
+void statements_rem(void) {
+    lexer_go(lexer_line_end());
+}

@@ -1,0 +1,159 @@
+// Statements about the program, its time and its options. Context: main loop, while compiling.
+#include "actions.h"
+#include "compiler.h"
+#include "emit.h"
+#include "errors.h"
+#include "expressions.h"
+#include "lexer.h"
+#include "names.h"
+#include "statements.h"
+#include "words.h"
+
+void statements_pause(void) {
+    expressions_compile();
+    emit_action(ACTIONS_PAUSE, 1);
+}
+
+// TIMER = v; TIMER alone, at the prompt, shows it.
+void statements_timer(void) {
+    if (lexer_at_end() && compiler_at_prompt()) {
+        emit_op(OP_FUNCTION);
+        emit_byte((unsigned)words_find(WORDS_FUNCTION, "TIMER", 5));
+        emit_byte(0);
+        emit_action(ACTIONS_PRINT_VALUE, 1);
+        emit_action(ACTIONS_PRINT_LINE, 0);
+        return;
+    }
+    lexer_expect('=');
+    expressions_compile();
+    emit_action(ACTIONS_TIMER, 1);
+}
+
+static void compile_optional(actions_t action) {
+    bool given = !lexer_at_end();
+    if (given) {
+        expressions_compile();
+    }
+    emit_action(action, given);
+}
+
+void statements_randomize(void) {
+    compile_optional(ACTIONS_RANDOMIZE);
+}
+
+void statements_error(void) {
+    compile_optional(ACTIONS_ERROR);
+}
+
+void statements_run(void) {
+    emit_action(ACTIONS_RUN, 0);
+}
+
+// Deleting or replacing the program while it runs would saw off the branch it sits on.
+static void at_prompt_only(void) {
+    if (!compiler_at_prompt()) {
+        errors_fail(ERR_NOT_IN_PROGRAM);
+    }
+}
+
+void statements_new(void) {
+    at_prompt_only();
+    emit_action(ACTIONS_NEW, 0);
+}
+
+void statements_autosave(void) {
+    at_prompt_only();
+    emit_action(ACTIONS_AUTOSAVE, 0);
+}
+
+void statements_list(void) {
+    bool all = lexer_take_word("ALL");
+    emit_integer(all);
+    emit_action(ACTIONS_LIST, 1);
+}
+
+void statements_memory(void) {
+    emit_action(ACTIONS_MEMORY, 0);
+}
+
+void statements_help(void) {
+    const char *start = lexer_now()->text;
+    while (!lexer_at_end()) {
+        lexer_next();
+    }
+    const char *end = lexer_now()->text;
+    while (end > start && end[-1] == ' ') {
+        end--;
+    }
+    emit_string(start, (size_t)(end - start));
+    emit_action(ACTIONS_HELP, 1);
+}
+
+static void emit_option(int option, int64_t value) {
+    emit_integer(option);
+    emit_integer(value);
+    emit_action(ACTIONS_OPTION, 2);
+}
+
+static void compile_default_type(void) {
+    static const struct {
+        const char *word;
+        uint8_t type;
+    } types[] = {
+        {"FLOAT", VALUE_FLOAT},
+        {"INTEGER", VALUE_INTEGER},
+        {"STRING", VALUE_STRING},
+        {"NONE", VALUE_NONE},
+    };
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++) {
+        if (lexer_take_word(types[i].word)) {
+            names_set_default_type(types[i].type);
+            emit_option(ACTIONS_OPTION_DEFAULT, types[i].type);
+            return;
+        }
+    }
+    errors_fail(ERR_SYNTAX);
+}
+
+void statements_option(void) {
+    if (lexer_take_word("EXPLICIT")) {
+        bool off = lexer_take_word("OFF");
+        if (!off) {
+            lexer_take_word("ON");
+        }
+        emit_option(ACTIONS_OPTION_EXPLICIT, !off);
+    } else if (lexer_take_word("DEFAULT")) {
+        compile_default_type();
+    } else if (lexer_take_word("BASE")) {
+        emit_integer(ACTIONS_OPTION_BASE);
+        expressions_compile();
+        emit_action(ACTIONS_OPTION, 2);
+    } else {
+        errors_fail(ERR_SYNTAX);
+    }
+}
+
+void statements_on_error(void) {
+    static const struct {
+        const char *word;
+        int mode;
+    } modes[] = {
+        {"ABORT", ACTIONS_ERROR_ABORT},
+        {"IGNORE", ACTIONS_ERROR_IGNORE},
+        {"SKIP", ACTIONS_ERROR_SKIP},
+        {"CLEAR", ACTIONS_ERROR_CLEAR},
+    };
+    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
+        if (lexer_take_word(modes[i].word)) {
+            emit_integer(modes[i].mode);
+            if (modes[i].mode == ACTIONS_ERROR_SKIP && !lexer_at_end()) {
+                expressions_compile();
+            } else {
+                emit_integer(1);
+            }
+            emit_action(ACTIONS_ON_ERROR, 2);
+            return;
+        }
+    }
+    errors_fail(ERR_SYNTAX);
+}
