@@ -3,6 +3,9 @@
 import itertools
 
 import pytest
+from fake_board import FakeBoard
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from stepmite.board import Board, BoardGone, Cancelled
 from stepmite.stream import JobError, Progress, Streamer, prepare
@@ -167,3 +170,41 @@ def test_unknown_words_are_left_to_the_firmware():
     job = prepare("part.nc", ["G1 X5 F100", "G64 P0.1", "X9"])
     assert [line.code for line in job.lines] == ["G1X5F100", "G64P0.1", "X9"]
     assert job.unreadable.line_number == 2
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    size=st.integers(1, 300),
+    drain=st.integers(1, 300),
+    lie=st.integers(0, 40),
+    armed=st.booleans(),
+    echo=st.booleans(),
+    refused=st.none() | st.integers(0, len(CODES) - 1),
+    notices=st.sets(st.integers(0, len(CODES) - 1), max_size=5),
+    typing=st.booleans(),
+)
+def test_whatever_the_board_does_no_line_is_lost_or_doubled(
+    size, drain, lie, armed, echo, refused, notices, typing
+):
+    machine = FakeBoard(
+        size=size,
+        drain=drain,
+        lie_about_slots=lie,
+        armed=armed,
+        echo=echo,
+        refuse={} if refused is None else {CODES[refused]: "No"},
+        notice_after=[CODES[index] for index in notices],
+        notice_while_typing=typing and echo,
+    )
+    try:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("stepmite.board.QUIET_S", 0.02)
+            patch.setattr("stepmite.stream._POLL_S", (0.001, 0.001))
+            if refused is None:
+                stream(machine)
+            else:
+                with pytest.raises(JobError, match=f"part.nc:{(refused + 4) if refused else 3}:"):
+                    stream(machine)
+    finally:
+        machine.close()
+    assert machine.accepted == CODES[:refused]

@@ -24,6 +24,8 @@ LINE_MAX = 255
 _KILL_LINE = b"\x15"
 _BREAK = b"\x03"
 _POLL_S = 0.05
+QUIET_S = 0.1
+"""A board that sends nothing for so long has said all it wanted to say."""
 
 
 class BoardError(Exception):
@@ -252,12 +254,12 @@ class Board:
         if line.strip() and self.on_notice is not None:
             self.on_notice(line.strip())
 
-    def _read_until_quiet(self, quiet_s: float = 0.1, limit_s: float = 2.0) -> None:
+    def _read_until_quiet(self, limit_s: float = 2.0) -> None:
         limit = time.monotonic() + limit_s
-        quiet = time.monotonic() + quiet_s
+        quiet = time.monotonic() + QUIET_S
         while time.monotonic() < min(quiet, limit):
             if self._receive():
-                quiet = time.monotonic() + quiet_s
+                quiet = time.monotonic() + QUIET_S
 
     def _waiting(self) -> int:
         try:

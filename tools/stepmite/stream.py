@@ -135,6 +135,7 @@ class Streamer:
         self._cancel = False
         self._credit = 0
         self._free_most = 0
+        self._full_since: float | None = None
         self._sent = 0
         self._done_s = 0.0
         self._queue: list[tuple[int, float]] = []
@@ -279,8 +280,9 @@ class Streamer:
             self._pass_on(error.output)
             if "buffer full" not in str(error).lower():
                 self._refused(batch[done], str(error))
-            self._credit = 0
+            self._wait_after_full(progress=done > 0)
             return
+        self._full_since = None
         self._pass_on(output)
         if sum(1 for line in output if line.strip() == MARK) != len(batch) - 1:
             self._board.stop()
@@ -288,6 +290,17 @@ class Streamer:
                 f"{self._job.name}:{batch[0].number}: the answer of the board is unclear"
             )
         self._account(batch)
+
+    def _wait_after_full(self, progress: bool) -> None:
+        """Give a board that had less room than it said some time, but not for ever."""
+        self._credit = 0
+        now = time.monotonic()
+        if progress or self._full_since is None:
+            self._full_since = now
+        moves = self._board.peek("ACTIVE") > 0 or self._start_if_idle()
+        if not moves and now - self._full_since > STUCK_S:
+            raise JobError("the queue of the board is full and nothing moves")
+        time.sleep(_POLL_S[0])
 
     def _account(self, lines: list[Line]) -> None:
         for line in lines:
