@@ -1,6 +1,6 @@
-# stepmite_firmware_image(TARGET PART...): TARGET.elf and TARGET.uf2 in the top of the build folder.
-function(stepmite_firmware_image target)
-    add_executable(${target} $<TARGET_OBJECTS:stepmite_main>)
+# stepmite_firmware_image(TARGET MAIN PART...): TARGET.elf and TARGET.uf2. MAIN is the object library with main().
+function(stepmite_firmware_image target main)
+    add_executable(${target} $<TARGET_OBJECTS:${main}>)
     set_target_properties(${target} PROPERTIES LINKER_LANGUAGE C)
     stepmite_link_parts(${target} ${ARGN})
     target_link_libraries(${target} PRIVATE ${STEPMITE_SDK_LIBRARIES} pico_stdio_usb m)
