@@ -52,7 +52,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
                  (unsigned)(status.blocks - status.blocks_free), (unsigned)status.blocks,
                  (unsigned)status.executed, (unsigned)status.underruns);
     basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
-    basic_printf("Junction deviation: %.9g mm, arc tolerance: %.9g mm\n", status.junction_deviation_mm,
+    basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status.junction_deviation_mm,
                  status.arc_tolerance_mm);
     basic_printf("E-STOP: %s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  yes_no(status.estop_keeps_enabled));

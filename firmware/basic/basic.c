@@ -229,13 +229,14 @@ err_t basic_run_program(const char *source, size_t length) {
     return error;
 }
 
-void basic_prompt(void) {
+bool basic_prompt(void) {
     static const line_editor_options_t options = {.prompt = "> ", .history = true};
     console_fresh_line();
     if (console_lost_input()) {
         console_print("Warning: input that the program did not read was lost\r\n");
     }
-    switch (line_editor_read(&options, &line.text, &line.length)) {
+    line_editor_result_t end = line_editor_read(&options, &line.text, &line.length);
+    switch (end) {
     case LINE_EDITOR_LINE:
     case LINE_EDITOR_FINISHED:
     case LINE_EDITOR_FINISHED_RUN:
@@ -253,4 +254,5 @@ void basic_prompt(void) {
         break;
     }
     console_flush();
+    return end != LINE_EDITOR_END;
 }

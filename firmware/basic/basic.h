@@ -120,8 +120,8 @@ void basic_start(const basic_config_t *config);
 err_t basic_run_program(const char *source, size_t length);
 
 // One turn of the prompt: shows it, waits for a line, carries it out, prints an error if there is one.
-// Returns at once if no more input can come.
-void basic_prompt(void);
+// False if there is no line and no more input can come.
+bool basic_prompt(void);
 
 // ---- For command handlers ------------------------------------------------------------------------
 

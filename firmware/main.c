@@ -1,0 +1,56 @@
+// Start-up and the loop. Context: main loop.
+#include "basic/basic.h"
+#include "basic_cmds/basic_cmds.h"
+#include "hal/hal.h"
+#include "stepper/stepper.h"
+
+#include <stdio.h>
+
+// Variables, strings and the program of BASIC.
+#define ARENA_SIZE (96u * 1024u)
+
+static struct {
+    _Alignas(8) uint8_t arena[ARENA_SIZE];
+    char banner[120];
+} start;
+
+static void start_basic(void) {
+    snprintf(start.banner, sizeof start.banner, "StepMite %s on %s\r\n%u bytes free, HELP lists commands\r\n\r\n",
+             hal_firmware_version(), hal_board_name(), ARENA_SIZE);
+    static basic_config_t config = {
+        .arena = start.arena,
+        .arena_size = ARENA_SIZE,
+        .background = basic_cmds_background,
+        .on_break = basic_cmds_break,
+        .banner = start.banner,
+    };
+    config.commands = basic_cmds_commands;
+    config.command_count = basic_cmds_command_count;
+    config.functions = basic_cmds_functions;
+    config.function_count = basic_cmds_function_count;
+    basic_start(&config);
+}
+
+// Motion that is under way when input or program end is carried out to its end.
+static void wait_until_idle(void) {
+    while (stepper_active() > 0) {
+        hal_idle(hal_time_us() + 1000);
+        basic_cmds_background();
+    }
+}
+
+int main(int argc, char **argv) {
+    hal_init(argc, argv);
+    start_basic();
+    size_t length;
+    const char *program = hal_startup_program(&length);
+    err_t err = ERR_OK;
+    if (program != NULL) {
+        err = basic_run_program(program, length);
+    } else {
+        while (basic_prompt()) {
+        }
+    }
+    wait_until_idle();
+    hal_exit(err == ERR_OK ? 0 : 1);
+}
