@@ -1,9 +1,10 @@
-"""The board's port by itself, in the emulator: tests/port/port_check.c does what a letter asks for."""
+"""The board's port by itself, in the emulator: port_check.c does what a letter asks for."""
 
 import re
 from pathlib import Path
 
 import pytest
+
 from stepmite.emulator import Emulator
 
 BUILD = Path(__file__).resolve().parents[2] / "build" / "pico" / "tests" / "port"
@@ -84,8 +85,8 @@ def test_pins(clean_board):
 
 def test_long_output_arrives_complete(clean_board):
     clean_board.send("l")
-    text = clean_board.expect(r"[^]*line 499 of a long output\r\n", 5000)[0]
-    assert text == "".join(f"line {n} of a long output\r\n" for n in range(500))
+    clean_board.run_ms(500)
+    assert clean_board.output() == "".join(f"line {n} of a long output\r\n" for n in range(500))
 
 
 def test_terminal_that_does_not_read_gets_all_later(clean_board):
@@ -93,8 +94,8 @@ def test_terminal_that_does_not_read_gets_all_later(clean_board):
     clean_board.send("l")
     clean_board.run_ms(100)
     clean_board.host_reading(True)
-    text = clean_board.expect(r"[^]*line 499 of a long output\r\n", 5000)[0]
-    assert text.count("\n") == 500
+    clean_board.run_ms(500)
+    assert clean_board.output().count("\n") == 500
 
 
 def test_output_is_dropped_without_a_terminal(clean_board):
@@ -107,7 +108,8 @@ def test_output_is_dropped_without_a_terminal(clean_board):
     clean_board.host_open(True)
     clean_board.run_ms(20)
     assert clean_board.output() == ""
-    assert "Raspberry Pi Pico" in (clean_board.send("n"), clean_board.expect("[^]*\r\n"))[1][0]
+    clean_board.send("n")
+    clean_board.expect("Raspberry Pi Pico")
 
 
 def test_uart_answers_and_leads(clean_board):
