@@ -238,6 +238,7 @@ static void obey(char command) {
 int main(int argc, char **argv) {
     hal_init(argc, argv);
     hal_pin_output(PULSE_GPIO, false);
+    say("port check\r\n");
     for (;;) {
         uint8_t bytes[16];
         size_t count = hal_console_read(bytes, sizeof bytes);

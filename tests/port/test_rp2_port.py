@@ -18,7 +18,7 @@ def board():
     """A board that has just booted and whose USB port a terminal has open."""
     with Emulator(BUILD / "port-check.uf2", elf=BUILD / "port-check.elf") as emulator:
         emulator.connect()
-        emulator.run_ms(20)
+        emulator.expect("port check\r\n")
         yield emulator
 
 
@@ -112,6 +112,14 @@ def test_output_is_dropped_without_a_terminal(clean_board):
     clean_board.expect("Raspberry Pi Pico")
 
 
+def test_greeting_goes_to_the_first_terminal_only(clean_board):
+    clean_board.host_open(False)
+    clean_board.run_ms(5)
+    clean_board.host_open(True)
+    clean_board.run_ms(50)
+    assert clean_board.output() == ""
+
+
 def test_uart_answers_and_leads(clean_board):
     clean_board.send_uart("l")
     clean_board.run_ms(1500)
@@ -147,7 +155,7 @@ def test_exit_restarts_without_a_message(clean_board):
     assert clean_board.status()["resets"] == 1
     clean_board.connect()
     clean_board.run_ms(50)
-    assert clean_board.output() == ""
+    assert clean_board.output() == "port check\r\n"
 
 
 def test_hung_main_loop_restarts(clean_board):

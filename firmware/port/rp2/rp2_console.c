@@ -8,11 +8,28 @@
 
 #include "rp2_port.h"
 
-static volatile bool usb_leads;
-static bool fault_told;
+#define GREETING_SIZE 512u
 
-static void write_text_to_usb(const char *text) {
-    rp2_usb_write((const uint8_t *)text, strlen(text));
+static volatile bool usb_leads;
+
+// What was printed since the start, for the first terminal that comes over USB: it cannot have been there in
+// time. Held back only until someone uses the console.
+static struct {
+    uint8_t bytes[GREETING_SIZE];
+    size_t length;
+    bool closed;
+} greeting;
+
+static void keep_for_greeting(const uint8_t *bytes, size_t size) {
+    rp2_irq_off(RP2_USB_IRQ);
+    size_t room = GREETING_SIZE - greeting.length;
+    if (!greeting.closed && size <= room) {
+        memcpy(greeting.bytes + greeting.length, bytes, size);
+        greeting.length += size;
+    } else {
+        greeting.closed = true;
+    }
+    rp2_irq_on(RP2_USB_IRQ);
 }
 
 void rp2_console_init(void) {
@@ -20,16 +37,15 @@ void rp2_console_init(void) {
     rp2_uart_start();
     const char *report = rp2_fault_report();
     if (report != NULL) {
-        rp2_uart_write((const uint8_t *)report, strlen(report));
+        hal_console_write((const uint8_t *)report, strlen(report));
     }
 }
 
 void rp2_console_on_usb_line(bool connected) {
     usb_leads = connected;
-    const char *report = rp2_fault_report();
-    if (connected && !fault_told && report != NULL) {
-        fault_told = true;
-        write_text_to_usb(report);
+    if (connected && !greeting.closed) {
+        greeting.closed = true;
+        rp2_usb_write(greeting.bytes, greeting.length);
     }
 }
 
@@ -42,6 +58,7 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
     count = rp2_uart_read(bytes, size);
     if (count > 0) {
         usb_leads = false;
+        greeting.closed = true;
     }
     return count;
 }
@@ -55,6 +72,8 @@ size_t hal_console_write(const uint8_t *bytes, size_t size) {
     size_t count = rp2_uart_running() ? rp2_uart_write(bytes, size) : size;
     if (rp2_usb_connected()) {
         rp2_usb_write(bytes, count);
+    } else {
+        keep_for_greeting(bytes, count);
     }
     return count;
 }
