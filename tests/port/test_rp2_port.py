@@ -19,6 +19,7 @@ def board():
     with Emulator(BUILD / "port-check.uf2", elf=BUILD / "port-check.elf") as emulator:
         emulator.connect()
         emulator.expect("port check\r\n")
+        emulator.uart_output()
         yield emulator
 
 
