@@ -35,31 +35,32 @@ static _Noreturn void give_up(const char *what) {
     exit(99);
 }
 
+static char directory[] = "/tmp/stepmite-test-XXXXXX";
+
 static struct {
-    char directory[32];
     char paths[FILES_MAX][64];
     unsigned count;
     pid_t owner; // a forked child must not clean up
-} files = {.directory = "/tmp/stepmite-test-XXXXXX"};
+} files;
 
 static void remove_files(void) {
     if (getpid() == files.owner) {
         for (unsigned i = 0; i < files.count; i++) {
             unlink(files.paths[i]);
         }
-        rmdir(files.directory);
+        rmdir(directory);
     }
 }
 
 const char *fixture_file(const char *name, const void *bytes, size_t size) {
     if (files.count == 0) {
         files.owner = getpid();
-        if (mkdtemp(files.directory) == NULL || atexit(remove_files) != 0) {
-            give_up(files.directory);
+        if (mkdtemp(directory) == NULL || atexit(remove_files) != 0) {
+            give_up(directory);
         }
     }
     char *path = files.paths[files.count++];
-    snprintf(path, sizeof files.paths[0], "%s/%s", files.directory, name);
+    snprintf(path, sizeof files.paths[0], "%s/%s", directory, name);
     FILE *file = files.count < FILES_MAX ? fopen(path, "wb") : NULL;
     if (file == NULL || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) {
         give_up(path);
