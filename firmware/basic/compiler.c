@@ -351,6 +351,7 @@ static void declare_routine(void) {
     if (symbol->routine == NULL) {
         symbol->routine = symbols_memory(sizeof *symbol->routine);
         symbol->routine->is_function = is_function;
+        symbol->routine->type = lexer_suffix_type(name->suffix);
     }
 }
 

@@ -34,8 +34,27 @@ void console_start(void (*background)(void)) {
     console.background = background;
 }
 
+// Ctrl-C that came together with the line it is to stop. Behind a further line it is left for then:
+// a script piped in must not lose the lines between.
+static void look_for_break_typed_ahead(void) {
+    for (unsigned i = console.taken; i != console.received; i++) {
+        uint8_t byte = console.input[i % INPUT_SIZE];
+        if (byte == '\r' || byte == '\n') {
+            return;
+        }
+        if (byte == CTRL_C) {
+            console.taken = i + 1;
+            console.break_pending = true;
+            return;
+        }
+    }
+}
+
 void console_set_running(bool running) {
     console.running = running;
+    if (running) {
+        look_for_break_typed_ahead();
+    }
 }
 
 bool console_break_pending(void) {

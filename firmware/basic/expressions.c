@@ -188,7 +188,8 @@ static void compile_name(void) {
             behind++;
         }
         if (behind < lexer_line_end() && *behind == '(') {
-            if (type != VALUE_NONE && type != symbol->routine->type) {
+            uint8_t known = symbol->routine->type;
+            if (type != VALUE_NONE && known != VALUE_NONE && type != known) {
                 errors_fail_with(ERR_DIFFERENT_TYPE, "%s", symbol->name);
             }
             compile_call(symbol);

@@ -10,15 +10,10 @@
 #define SLOTS 512u // power of two, more than twice the number of words
 #define ROWS_MAX 128u
 
-typedef struct {
-    const char *text;
-    uint8_t length;
-    uint8_t kind;
-    int16_t row;
-} word_t;
+static const basic_config_t *config;
 
 static struct {
-    word_t slots[SLOTS];
+    uint16_t slots[SLOTS];     // 0: free, otherwise 1 + kind and row
     int16_t next[2][ROWS_MAX]; // chains of rows with one first word: commands, functions
 } words;
 
@@ -31,59 +26,70 @@ static char upper(char c) {
     return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
 }
 
+static const char *name_of(words_kind_t kind, size_t row) {
+    switch (kind) {
+    case WORDS_STATEMENT:
+        return statements_table[row].name;
+    case WORDS_FUNCTION:
+        return functions_table[row].name;
+    case WORDS_COMMAND:
+        return config->commands[row].name;
+    default:
+        return config->functions[row].name;
+    }
+}
+
+static bool is_word(uint16_t slot, words_kind_t kind, const char *text, size_t length) {
+    if ((slot - 1u) / ROWS_MAX != (unsigned)kind) {
+        return false;
+    }
+    const char *name = name_of(kind, (slot - 1u) % ROWS_MAX);
+    for (size_t i = 0; i < length; i++) {
+        if (upper(name[i]) != upper(text[i])) { // the end of the name differs as well
+            return false;
+        }
+    }
+    return name[length] == '\0' || name[length] == ' ';
+}
+
 // The slot that holds the word, or the free one where it belongs.
-static word_t *slot_of(words_kind_t kind, const char *text, size_t length) {
+static uint16_t *slot_of(words_kind_t kind, const char *text, size_t length) {
     unsigned hash = (unsigned)kind;
     for (size_t i = 0; i < length; i++) {
         hash = hash * 31 + (unsigned char)upper(text[i]);
     }
     hash ^= hash >> 9;
-    for (;; hash++) {
-        word_t *word = &words.slots[hash % SLOTS];
-        if (word->text == NULL) {
-            return word;
+    while (words.slots[hash % SLOTS] != 0 && !is_word(words.slots[hash % SLOTS], kind, text, length)) {
+        hash++;
+    }
+    return &words.slots[hash % SLOTS];
+}
+
+// Rows in turn: a later one with the same first word comes first in the chain.
+static void add_rows(words_kind_t kind, size_t count) {
+    for (size_t row = 0; row < count && row < ROWS_MAX; row++) {
+        const char *name = name_of(kind, row);
+        uint16_t *slot = slot_of(kind, name, strcspn(name, " "));
+        if (*slot != 0) {
+            words.next[kind - WORDS_COMMAND][row] = (int16_t)((*slot - 1u) % ROWS_MAX);
         }
-        if (word->kind == kind && word->length == length) {
-            size_t same = 0;
-            while (same < length && upper(word->text[same]) == upper(text[same])) {
-                same++;
-            }
-            if (same == length) {
-                return word;
-            }
-        }
+        *slot = (uint16_t)(1u + kind * ROWS_MAX + row);
     }
 }
 
-static void add(words_kind_t kind, const char *text, size_t length, size_t row) {
-    word_t *word = slot_of(kind, text, length);
-    if (word->text != NULL) { // a further row with this first word
-        int16_t *next = words.next[kind - WORDS_COMMAND];
-        next[row] = word->row;
-    }
-    *word = (word_t){text, (uint8_t)length, (uint8_t)kind, (int16_t)row};
-}
-
-void words_start(const basic_config_t *config) {
+void words_start(const basic_config_t *new_config) {
+    config = new_config;
     memset(&words, 0, sizeof words);
     memset(words.next, 0xFF, sizeof words.next); // WORDS_NONE
-    for (size_t i = 0; i < statements_count; i++) {
-        add(WORDS_STATEMENT, statements_table[i].name, strlen(statements_table[i].name), i);
-    }
-    for (size_t i = 0; i < functions_count; i++) {
-        add(WORDS_FUNCTION, functions_table[i].name, strlen(functions_table[i].name), i);
-    }
-    for (size_t i = 0; i < config->command_count && i < ROWS_MAX; i++) {
-        add(WORDS_COMMAND, config->commands[i].name, strcspn(config->commands[i].name, " "), i);
-    }
-    for (size_t i = 0; i < config->function_count && i < ROWS_MAX; i++) {
-        add(WORDS_HOST_FUNCTION, config->functions[i].name, strlen(config->functions[i].name), i);
-    }
+    add_rows(WORDS_STATEMENT, statements_count);
+    add_rows(WORDS_FUNCTION, functions_count);
+    add_rows(WORDS_COMMAND, config->command_count);
+    add_rows(WORDS_HOST_FUNCTION, config->function_count);
 }
 
 int words_find(words_kind_t kind, const char *text, size_t length) {
-    const word_t *word = slot_of(kind, text, length);
-    return word->text != NULL ? word->row : WORDS_NONE;
+    uint16_t slot = *slot_of(kind, text, length);
+    return slot != 0 ? (int)((slot - 1u) % ROWS_MAX) : WORDS_NONE;
 }
 
 int words_next(words_kind_t kind, int row) {

@@ -1,0 +1,235 @@
+"""The prompt as a terminal sees it: echo, editing keys, errors, programs typed in, bad input."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PROGRAM = os.environ.get("STEPMITE", str(Path(__file__).parents[2] / "build/host/stepmite"))
+TIMEOUT_S = 20
+CTRL_C, CTRL_U, CTRL_Z = "\x03", "\x15", "\x1a"
+UP, DOWN, RIGHT, LEFT = (f"\x1b[{letter}" for letter in "ABCD")
+HOME, INSERT, DELETE, END = (f"\x1b[{number}~" for number in "1234")
+
+
+def session(typed: str | bytes, *options: str) -> str:
+    """What the terminal shows from the first prompt on."""
+    data = typed if isinstance(typed, bytes) else typed.encode("latin-1")
+    done = subprocess.run(
+        [PROGRAM, "--virtual", *options],
+        input=data,
+        capture_output=True,
+        timeout=TIMEOUT_S,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr.decode()
+    output = done.stdout.decode("latin-1")
+    return output[output.index("> ") :]
+
+
+def answers(typed: str | bytes, *options: str) -> list[str]:
+    """The output lines alone, without prompts and what was typed."""
+    lines = session(typed, *options).split("\r\n")
+    return [line for line in lines if not line.startswith("> ") and line != ">" and line != ""]
+
+
+def test_a_line_gives_echo_output_and_the_next_prompt():
+    assert session("PRINT 5\r") == "> PRINT 5\r\n 5\r\n> "
+
+
+def test_an_error_is_one_line():
+    assert session("PRINT 1/0\r") == "> PRINT 1/0\r\nError : Divide by zero\r\n> "
+
+
+def test_output_without_a_line_end_gets_one_before_the_prompt():
+    assert session('PRINT "a";\r') == '> PRINT "a";\r\na\r\n> '
+
+
+@pytest.mark.parametrize("end", ["\r", "\n", "\r\n"])
+def test_each_line_end_counts_once(end):
+    assert answers(f"PRINT 1{end}PRINT 2{end}") == [" 1", " 2"]
+
+
+def test_the_last_line_needs_no_end():
+    assert answers("PRINT 1\rPRINT 2") == [" 1", " 2"]
+
+
+def test_an_empty_line_does_nothing():
+    assert session("\r\r") == "> \r\n> \r\n> "
+
+
+@pytest.mark.parametrize(
+    ("typed", "answer"),
+    [
+        ("1+2", " 3"),
+        ('"a" + "b"', "ab"),
+        ("-2^2", " 4"),
+        ("SQR(16)", " 4"),
+        ("(1+2)*3", " 9"),
+        ("7 MOD 4", " 3"),
+        ("NOT 0", " 1"),
+    ],
+)
+def test_an_expression_prints_its_value(typed, answer):
+    assert answers(typed + "\r") == [answer]
+
+
+def test_variables_stay_between_lines():
+    assert answers('a=5\rb$="x"\ra\rPRINT a;b$\r') == [" 5", " 5x"]
+
+
+def test_a_line_number_at_the_prompt_is_ignored():
+    assert answers("10 PRINT 7\r") == [" 7"]
+
+
+def test_a_loop_in_one_line():
+    assert answers("FOR i=1 TO 3:PRINT i;:NEXT\r") == [" 1 2 3"]
+
+
+def test_unknown_words():
+    assert answers("foo\rfoo 1\rPRINT 1 +\r") == [
+        "Error : Unknown command",
+        "Error : Unknown command",
+        "Error : Invalid syntax",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("typed", "answer"),
+    [
+        ("PRINT 15" + LEFT + LEFT + DELETE, " 5"),
+        ("RINT 1" + HOME + "P", " 1"),
+        ("PRINT 1" + HOME + END + "2", " 12"),
+        ("PRINT 129\x7f\b" + "0", " 10"),
+        ("PRINT 12" + LEFT + INSERT + "3", " 13"),
+        ("PRINT 12" + LEFT + LEFT + RIGHT + "3", " 132"),
+        ("rubbish" + CTRL_U + "PRINT 3", " 3"),
+        ("rubbish" + CTRL_C + "PRINT 4", " 4"),
+    ],
+)
+def test_editing_keys(typed, answer):
+    assert answers(typed + "\r")[-1] == answer
+
+
+def test_history_goes_up_and_down():
+    typed = "PRINT 1\rPRINT 2\r" + UP + UP + "\r" + UP + UP + UP + DOWN + "\r"
+    outputs = [line for line in session(typed).split("\r\n") if line.startswith(" ")]
+    assert outputs == [" 1", " 2", " 1", " 2"]
+
+
+def test_the_same_line_twice_is_one_in_the_history():
+    typed = "PRINT 1\rPRINT 2\rPRINT 2\r" + UP + UP + "\r"
+    assert session(typed).split("\r\n")[-2] == " 1"
+
+
+def test_a_line_too_long_is_refused_as_a_whole():
+    assert answers("PRINT " + "1" * 10000 + "\rPRINT 2\r") == [
+        line for line in answers("PRINT " + "1" * 10000 + "\rPRINT 2\r") if "1111" in line
+    ] + ["Error : Line too long (more than 255 characters)", " 2"]
+
+
+def test_a_line_of_the_full_length():
+    line = 'PRINT "' + "x" * 247 + '"'
+    assert len(line) == 255
+    assert "x" * 247 in answers(line + "\r")
+
+
+def test_binary_noise_is_harmless():
+    noise = bytes(b for b in range(256) if b not in (3, 10, 13, 26)) * 3
+    shown = session(noise + b"\x15\rPRINT 1\r\x00\xff\xfe\x1b[[[~\x15\rPRINT 2\r")
+    assert "\r\n 1\r\n" in shown
+    assert "\r\n 2\r\n" in shown
+
+
+def test_help():
+    overview = "\n".join(answers("HELP\r"))
+    assert "PRINT" in overview
+    assert "MID$" in overview
+    assert answers("HELP for\r")[0].startswith("FOR name = first TO last")
+    assert answers("HELP nothing\r") == ["Error : No help for nothing"]
+
+
+def enter(program: str) -> str:
+    return "AUTOSAVE\r" + program.replace("\n", "\r") + CTRL_Z
+
+
+def test_a_program_typed_in_runs_and_lists():
+    program = 'PRINT "one"\nPRINT "two"\n'
+    shown = answers(enter(program) + "RUN\rLIST\r")
+    assert shown == ['PRINT "one"', 'PRINT "two"', "one", "two", 'PRINT "one"', 'PRINT "two"']
+
+
+def test_ctrl_c_leaves_autosave_and_keeps_the_old_program():
+    typed = enter("PRINT 1\n") + "AUTOSAVE\rPRINT 2\r" + CTRL_C + "RUN\r"
+    assert answers(typed)[-1] == " 1"
+
+
+def test_a_sub_of_the_program_is_a_command_at_the_prompt():
+    typed = enter("SUB hi(n)\nPRINT n*2\nEND SUB\n") + "hi 21\r"
+    assert answers(typed)[-1] == " 42"
+
+
+def test_an_error_in_the_program_shows_line_and_text():
+    typed = enter("PRINT 1\nPRINT 1/0 ' bad\n") + "RUN\r"
+    assert answers(typed)[-3:] == [" 1", "[2] PRINT 1/0 ' bad", "Error : Divide by zero"]
+
+
+def test_variables_of_the_program_can_be_looked_at_afterwards():
+    assert answers(enter("a=7\n") + "RUN\rPRINT a\r")[-1] == " 7"
+
+
+def test_new_deletes_the_program():
+    assert answers(enter("PRINT 1\n") + "NEW\rRUN\rLIST\r")[-1] == "Error : No program"
+
+
+def test_the_program_survives_power_off(tmp_path):
+    image = str(tmp_path / "flash.bin")
+    session(enter("PRINT 11\n"), "--flash", image)
+    assert answers("RUN\r", "--flash", image) == [" 11"]
+    session(enter("PRINT 22\n"), "--flash", image)
+    assert answers("RUN\r", "--flash", image) == [" 22"]
+    session("NEW\r", "--flash", image)
+    assert answers("RUN\r", "--flash", image) == ["Error : No program"]
+
+
+def test_a_damaged_image_is_reported_and_the_older_program_is_there(tmp_path):
+    image = tmp_path / "flash.bin"
+    session(enter("PRINT 11\n"), "--flash", str(image))
+    session(enter("PRINT 22\n"), "--flash", str(image))
+    data = bytearray(image.read_bytes())
+    data[data.index(b"PRINT 22")] ^= 1
+    image.write_bytes(data)
+    done = subprocess.run(
+        [PROGRAM, "--virtual", "--flash", str(image)],
+        input=b"RUN\r",
+        capture_output=True,
+        timeout=TIMEOUT_S,
+        check=True,
+    )
+    assert b"Error : The stored program is damaged and was ignored\r\n" in done.stdout
+    assert b"\r\n 11\r\n" in done.stdout
+
+
+def test_input():
+    typed = 'INPUT "size"; a, b$\r12.5, big one\rPRINT a; b$\r'
+    assert session(typed).endswith("size? 12.5, big one\r\n> PRINT a; b$\r\n 12.5big one\r\n> ")
+
+
+def test_line_input():
+    assert answers('LINE INPUT "? ", a$\ra, "b"\rPRINT a$\r')[-1] == 'a, "b"'
+
+
+def test_inkey_takes_what_was_typed_ahead():
+    assert answers("k$=INKEY$\rxPRINT k$\r")[-1] == "x"
+
+
+def test_ctrl_c_stops_a_pause():
+    assert answers("PAUSE 10000\r" + CTRL_C + "\rPRINT 5\r")[-1] == " 5"
+
+
+def test_a_long_paste_waits_while_a_statement_runs():
+    lines = "".join(f"a{n}={n}\r" for n in range(400))
+    assert answers("PAUSE 1000\r" + lines + "PRINT a399\r")[-1] == " 399"
