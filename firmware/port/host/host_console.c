@@ -131,12 +131,15 @@ static _Noreturn void leave_quietly(void) {
 static bool send_chunk(void) {
     const uint8_t *from = console.output.bytes + console.output.start;
     size_t count = queue_used(&console.output);
+    if (count == 0) {
+        return false;
+    }
     if (console.peer != NULL) {
         console.peer->receive(from, count);
         console.output.start += count;
-        return count > 0;
+        return true;
     }
-    if (count == 0 || !can(STDOUT_FILENO, POLLOUT)) {
+    if (!can(STDOUT_FILENO, POLLOUT)) {
         return false;
     }
     ssize_t done = write(STDOUT_FILENO, from, count < SEND_CHUNK ? count : SEND_CHUNK);

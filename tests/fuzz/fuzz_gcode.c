@@ -1,0 +1,323 @@
+// A session that feeds the G-code reader. A model of its own follows the lines that are right:
+// every one of them must be accepted and end where the model says, whatever rubbish was refused
+// before it.
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "fuzz_corpus.h"
+#include "fuzz_gcode_lines.h"
+#include "fuzz_machine.h"
+#include "fuzz_random.h"
+#include "fuzz_session.h"
+#include "gcode/gcode.h"
+
+#define INPUTS 300
+#define SETTLE_S 20.0 // virtual time for motion to end by itself
+
+static struct {
+    fuzz_gcode_modal_t modal;
+    double target[AXIS_COUNT]; // machine coordinates
+    double offset[AXIS_COUNT];
+    bool stop_pending; // at its end the target will follow the motors
+} model;
+
+// ---- The machine --------------------------------------------------------------------------------
+
+static void check_ok(err_t err, const char *what) {
+    FUZZ_SESSION_CHECK(err == ERR_OK, "%s: %s", what, err_message());
+}
+
+static void configure_axis(axis_id_t axis) {
+    static const double scales[] = {80, 400, 100.5, 5, 1600, 8.888889};
+    static const double velocities[] = {6000, 1200, 60000, 100};
+    static const double accelerations[] = {500, 100, 5000, 20};
+    uint8_t first_gpio = (uint8_t)(2 + 3 * axis);
+    stepper_axis_t config = {
+        .step_gpio = first_gpio,
+        .dir_gpio = (uint8_t)(first_gpio + 1),
+        .enable_gpio = fuzz_random_percent(50) ? (uint8_t)(first_gpio + 2) : PINS_NONE,
+        .dir_invert = fuzz_random_percent(30),
+        .steps_per_unit = FUZZ_RANDOM_PICK(scales),
+        .max_velocity = FUZZ_RANDOM_PICK(velocities),
+        .max_acceleration = FUZZ_RANDOM_PICK(accelerations),
+        .home_backoff_mm = 3,
+    };
+    check_ok(stepper_axis(axis, &config), "axis");
+    if (axis != AXIS_A && fuzz_random_percent(30)) {
+        check_ok(stepper_limits(axis, -200, 200), "limits");
+    }
+}
+
+static void set_up(void) {
+    static const uint32_t block_counts[] = {1, 2, 3, 8, 32, 32, 1024};
+    stepper_init_t config = {
+        .arc_tolerance_mm = 0.05,
+        .blocks = FUZZ_RANDOM_PICK(block_counts),
+        .estop_gpio = fuzz_random_percent(20) ? 22 : PINS_NONE,
+    };
+    check_ok(stepper_init(&config), "init");
+    gcode_reset();
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (axis == AXIS_X || fuzz_random_percent(70)) {
+            configure_axis(axis);
+        }
+    }
+    model.modal.spindle = fuzz_random_percent(70);
+    if (model.modal.spindle) {
+        check_ok(stepper_spindle(20, fuzz_random_percent(30)), "spindle");
+    }
+    if (fuzz_random_percent(30)) {
+        check_ok(stepper_junction(fuzz_random_between(0, 50) / 100.0), "junction");
+    }
+    check_ok(stepper_set_home(), "home");
+    if (fuzz_random_percent(80)) {
+        check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+    }
+    fuzz_machine_rebase();
+}
+
+// ---- The model ----------------------------------------------------------------------------------
+
+// Where the machine's word is taken: after a stop, and after a line whose meaning the model does
+// not know.
+static void follow_machine(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    model.stop_pending = status.stopping;
+    stepper_target(model.target);
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        model.offset[axis] = gcode_offset(axis);
+    }
+}
+
+static void follow_line(const fuzz_gcode_line_t *line) {
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (((line->axes >> axis) & 1) == 0) {
+            continue;
+        }
+        if (line->kind == FUZZ_GCODE_OFFSET) {
+            model.offset[axis] = model.target[axis] - line->value[axis];
+        } else {
+            model.target[axis] =
+                line->value[axis] + (line->relative ? model.target[axis] : model.offset[axis]);
+        }
+    }
+    model.modal.relative = line->relative;
+    model.modal.has_feed |= line->feed > 0;
+    if (line->sets_motion) {
+        model.modal.has_motion = true;
+        model.modal.rapid = line->rapid;
+    }
+}
+
+static void check_model(void) {
+    double target[AXIS_COUNT];
+    stepper_target(target);
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        FUZZ_SESSION_CHECK(target[axis] == model.target[axis],
+                           "axis %d: target %.17g, should be %.17g", axis, target[axis],
+                           model.target[axis]);
+        FUZZ_SESSION_CHECK(gcode_offset(axis) == model.offset[axis],
+                           "axis %d: offset %.17g, should be %.17g", axis, gcode_offset(axis),
+                           model.offset[axis]);
+    }
+}
+
+// ---- Sending ------------------------------------------------------------------------------------
+
+static void check_message(void) {
+    char text[ERR_MESSAGE_SIZE + 8];
+    snprintf(text, sizeof text, "%s%s", err_message(),
+             fuzz_session_plant_now(FUZZ_PLANT_LONG_ERROR) ? "\nmore" : "");
+    FUZZ_SESSION_CHECK(text[0] != '\0', "an error without a message");
+    for (const char *p = text; *p != '\0'; p++) {
+        FUZZ_SESSION_CHECK(isprint((unsigned char)*p), "byte %u in an error message",
+                           (unsigned char)*p);
+    }
+}
+
+// A line, in memory that ends with it, so that reading beyond is caught. Checks what holds for
+// every line.
+static err_t send(const fuzz_text_t *text) {
+    fuzz_machine_t before;
+    fuzz_machine_look(&before);
+    fuzz_session_input(text);
+    char exact[text->length + 1];
+    memcpy(exact + 1, text->bytes, text->length);
+    err_t err = gcode_line(exact + 1, text->length);
+    if (err == ERR_OK) {
+        fuzz_session->accepted++;
+        return err;
+    }
+    if (fuzz_session_plant_now(FUZZ_PLANT_REFUSED_MOVES)) {
+        stepper_dwell(1);
+    }
+    fuzz_session->refused++;
+    check_message();
+    fuzz_machine_check_unchanged(&before);
+    return err;
+}
+
+// Time for a queue that is full, or a stop that is under way.
+static void make_room(void) {
+    check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+    uint64_t until_us = hal_time_us() + 10000000u;
+    while ((stepper_blocks_free() == 0 || stepper_active() == 1) && hal_time_us() < until_us) {
+        hal_idle(until_us);
+        stepper_status_t status;
+        stepper_status(&status);
+        if (status.blocks_free > 0 && !status.stopping) {
+            if (model.stop_pending) {
+                follow_machine();
+            }
+            return;
+        }
+    }
+    fuzz_machine_settle(SETTLE_S);
+    follow_machine();
+}
+
+static void send_right_line(void) {
+    fuzz_text_t text = {.length = 0};
+    fuzz_gcode_line_t line;
+    double work_position[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        work_position[axis] = model.target[axis] - model.offset[axis];
+    }
+    fuzz_gcode_right_line(&text, &line, &model.modal, work_position);
+    err_t err = send(&text);
+    if (err == ERR_GCODE_BUFFER_FULL || err == ERR_STEPPER_STOPPING) {
+        make_room();
+        err = send(&text);
+    }
+    check_ok(err, "a right line was refused");
+    follow_line(&line);
+    check_model();
+    fuzz_session->moves += line.kind == FUZZ_GCODE_MOVE;
+}
+
+// After a line the model does not understand: modes in force are made known again, and the machine
+// is brought back to where right lines are in reach.
+static void resynchronise(void) {
+    static const char known[] = "G90 G1 F1000";
+    check_ok(gcode_line(known, sizeof known - 1), known);
+    model.modal =
+        (fuzz_gcode_modal_t){.has_motion = true, .has_feed = true, .spindle = model.modal.spindle};
+    follow_machine();
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (model.target[axis] < -150 || model.target[axis] > 150 || model.offset[axis] < -100 ||
+            model.offset[axis] > 100) {
+            fuzz_machine_settle(1.0);
+            stepper_clear();
+            check_ok(stepper_set_home(), "home");
+            gcode_clear_offsets();
+            follow_machine();
+            fuzz_machine_rebase();
+            return;
+        }
+    }
+}
+
+static void send_wild_line(void) {
+    fuzz_text_t text = {.length = 0};
+    switch (fuzz_random_below(8)) {
+    case 0:
+    case 1:
+    case 2:
+        fuzz_gcode_any_line(&text);
+        break;
+    case 3:
+        fuzz_gcode_any_line(&text);
+        fuzz_text_mutate(&text);
+        break;
+    case 4:
+        fuzz_corpus_pick(FUZZ_CORPUS_GCODE, &text);
+        break;
+    case 5:
+        fuzz_corpus_pick(FUZZ_CORPUS_GCODE, &text);
+        fuzz_text_mutate(&text);
+        break;
+    case 6:
+        fuzz_text_noise(&text, fuzz_random_below(80));
+        break;
+    default: // a line of 10 kB
+        while (text.length < 10000) {
+            fuzz_gcode_any_line(&text);
+        }
+        break;
+    }
+    if (send(&text) == ERR_OK) {
+        resynchronise();
+    }
+}
+
+// ---- What else happens meanwhile ----------------------------------------------------------------
+
+static void press_a_button(void) {
+    switch (fuzz_random_below(5)) {
+    case 0:
+        fuzz_session_note("stop");
+        stepper_stop();
+        break;
+    case 1:
+        fuzz_session_note("emergency stop, home, run");
+        stepper_estop();
+        check_ok(stepper_set_home(), "home after an emergency stop");
+        check_ok(stepper_run(STEPPER_IDLE_DISABLE), "run");
+        fuzz_machine_rebase();
+        break;
+    case 2:
+        fuzz_session_note("clear");
+        stepper_clear();
+        break;
+    case 3:
+        fuzz_session_note("run");
+        check_ok(stepper_run(fuzz_random_percent(50) ? STEPPER_IDLE_HOLD : STEPPER_IDLE_DISABLE),
+                 "run");
+        break;
+    default:
+        fuzz_session_note("set position");
+        if (stepper_set_position(AXIS_X, fuzz_random_between(-50, 50)) == ERR_OK) {
+            fuzz_machine_rebase();
+        }
+        break;
+    }
+    follow_machine();
+}
+
+static void let_time_pass(void) {
+    uint64_t until_us = hal_time_us() + fuzz_random_below(20000);
+    while (hal_time_us() < until_us) {
+        hal_idle(until_us);
+    }
+    if (model.stop_pending) {
+        follow_machine();
+    }
+    check_model();
+}
+
+void fuzz_gcode_session(void) {
+    fuzz_machine_watch();
+    set_up();
+    follow_machine();
+    for (unsigned i = 0; i < INPUTS; i++) {
+        if (fuzz_random_percent(60)) {
+            send_right_line();
+        } else {
+            send_wild_line();
+        }
+        if (fuzz_random_percent(3)) {
+            press_a_button();
+        }
+        if (fuzz_random_percent(30)) {
+            let_time_pass();
+            fuzz_machine_check_pulses();
+        }
+        if (fuzz_random_percent(2)) {
+            fuzz_machine_settle(SETTLE_S);
+            follow_machine();
+        }
+    }
+    fuzz_machine_settle(SETTLE_S);
+}

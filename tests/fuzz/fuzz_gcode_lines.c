@@ -1,0 +1,166 @@
+// Generates G-code lines in all the ways they may be written.
+#include "fuzz_gcode_lines.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz_random.h"
+
+#define PARTS_MAX 12
+#define REACH_MILLI 60000 // farthest right target, in thousandths of a unit
+
+static const char letters[AXIS_COUNT] = {'X', 'Y', 'Z', 'A'};
+
+typedef struct {
+    char parts[PARTS_MAX][32]; // words
+    unsigned count;
+} words_t;
+
+// A number of thousandths in one of the forms people use.
+static void add_word(words_t *words, char letter, int milli) {
+    char *part = words->parts[words->count++];
+    const char *sign = milli < 0 ? "-" : fuzz_random_percent(10) ? "+" : "";
+    int whole = abs(milli) / 1000;
+    int rest = abs(milli) % 1000;
+    if (rest == 0 && fuzz_random_percent(70)) {
+        snprintf(part, sizeof words->parts[0], "%c%s%d%s", letter, sign, whole,
+                 fuzz_random_percent(20) ? "." : "");
+    } else if (whole == 0 && fuzz_random_percent(30)) {
+        snprintf(part, sizeof words->parts[0], "%c%s.%03d", letter, sign, rest);
+    } else {
+        snprintf(part, sizeof words->parts[0], "%c%s%0*d.%03d", letter, sign,
+                 fuzz_random_percent(5) ? 6 : 1, whole, rest);
+    }
+}
+
+static void shuffle(words_t *words) {
+    for (unsigned i = words->count; i > 1; i--) {
+        char swap[32];
+        unsigned j = fuzz_random_below(i);
+        memcpy(swap, words->parts[i - 1], sizeof swap);
+        memcpy(words->parts[i - 1], words->parts[j], sizeof swap);
+        memcpy(words->parts[j], swap, sizeof swap);
+    }
+}
+
+static void add_gap(fuzz_text_t *text) {
+    static const char *const gaps[] = {"",   "",  " ",   " ",     " ",          "  ",
+                                       "\t", ",", " , ", "(gap)", " ( X1 Y2 ) "};
+    fuzz_text_add(text, "%s", FUZZ_RANDOM_PICK(gaps));
+}
+
+static void write_words(fuzz_text_t *text, words_t *words) {
+    shuffle(words);
+    bool lower = fuzz_random_percent(20);
+    for (unsigned i = 0; i < words->count; i++) {
+        add_gap(text);
+        for (const char *p = words->parts[i]; *p != '\0'; p++) {
+            fuzz_text_byte(text, lower ? (char)tolower((unsigned char)*p) : *p);
+            if (p == words->parts[i] && fuzz_random_percent(5)) {
+                add_gap(text);
+            }
+        }
+    }
+    add_gap(text);
+    if (fuzz_random_percent(15)) {
+        fuzz_text_add(text, "%s", fuzz_random_percent(50) ? "; G1 X9999" : "' comment");
+    }
+}
+
+// Axis words that lead to a place within reach, or none if there is no axis.
+static void add_axes(words_t *words, fuzz_gcode_line_t *line, bool relative,
+                     const double work_position[AXIS_COUNT]) {
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (!stepper_axis_configured(axis) || fuzz_random_percent(50)) {
+            continue;
+        }
+        int reach = fuzz_random_percent(90) ? 2000 : REACH_MILLI;
+        int milli = fuzz_random_between(-reach, reach);
+        if (relative && fabs(work_position[axis] + milli / 1000.0) > REACH_MILLI / 1000.0) {
+            milli = work_position[axis] > 0 ? -abs(milli) : abs(milli);
+        }
+        add_word(words, letters[axis], milli);
+        line->axes |= 1u << axis;
+        line->value[axis] = milli / 1000.0;
+    }
+}
+
+static void add_modes(words_t *words, fuzz_gcode_line_t *line, const fuzz_gcode_modal_t *modal) {
+    line->sets_distance = fuzz_random_percent(15);
+    line->relative = line->sets_distance ? fuzz_random_percent(50) : modal->relative;
+    if (line->sets_distance) {
+        add_word(words, 'G', line->relative ? 91000 : 90000);
+    }
+    if (fuzz_random_percent(30)) {
+        int milli = fuzz_random_between(100, 8000) * 1000;
+        add_word(words, 'F', milli);
+        line->feed = milli / 1000.0;
+    }
+}
+
+static void add_move(words_t *words, fuzz_gcode_line_t *line, const fuzz_gcode_modal_t *modal,
+                     const double work_position[AXIS_COUNT]) {
+    bool can_feed = modal->has_feed || line->feed > 0;
+    line->sets_motion =
+        !modal->has_motion || (!modal->rapid && !can_feed) || fuzz_random_percent(30);
+    line->rapid = line->sets_motion ? !can_feed || fuzz_random_percent(20) : modal->rapid;
+    if (line->sets_motion) {
+        add_word(words, 'G', line->rapid ? 0 : 1000);
+    }
+    add_axes(words, line, line->relative, work_position);
+    line->kind = line->axes != 0 ? FUZZ_GCODE_MOVE : FUZZ_GCODE_NOTHING;
+}
+
+void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
+                           const fuzz_gcode_modal_t *modal,
+                           const double work_position[AXIS_COUNT]) {
+    words_t words = {.count = 0};
+    *line = (fuzz_gcode_line_t){.kind = FUZZ_GCODE_NOTHING};
+    add_modes(&words, line, modal);
+    switch (fuzz_random_below(20)) {
+    case 0:
+        break; // modes alone, or nothing
+    case 1:
+        line->kind = FUZZ_GCODE_DWELL;
+        add_word(&words, 'G', 4000);
+        add_word(&words, 'P', fuzz_random_between(0, 50000));
+        break;
+    case 2:
+        add_axes(&words, line, false, work_position);
+        line->kind = line->axes != 0 ? FUZZ_GCODE_OFFSET : FUZZ_GCODE_NOTHING;
+        if (line->axes != 0) {
+            add_word(&words, 'G', 92000);
+        }
+        break;
+    case 3:
+        if (modal->spindle) {
+            line->kind = FUZZ_GCODE_SPINDLE;
+            add_word(&words, 'M', fuzz_random_percent(50) ? 3000 : 5000);
+        }
+        break;
+    default:
+        add_move(&words, line, modal, work_position);
+        break;
+    }
+    write_words(text, &words);
+}
+
+void fuzz_gcode_any_line(fuzz_text_t *text) {
+    static const char *const codes[] = {"G0",    "G1",  "G1", "G4",  "G90", "G91", "G92", "M3",
+                                        "M5",    "G28", "G2", "G3",  "G21", "G20", "M2",  "M30",
+                                        "G92.1", "G-1", "G",  "N10", "T1",  "%"};
+    static const char words[] = "XYZAFPXYZAFPIJKRSNTELBCUVW$*";
+    for (unsigned i = fuzz_random_below(8); i > 0; i--) {
+        add_gap(text);
+        if (fuzz_random_percent(35)) {
+            fuzz_text_add(text, "%s", FUZZ_RANDOM_PICK(codes));
+        } else {
+            fuzz_text_byte(text, words[fuzz_random_below(sizeof words - 1)]);
+            fuzz_text_number(text);
+        }
+    }
+    add_gap(text);
+}

@@ -1,0 +1,48 @@
+// G-code lines: right ones, whose effect is known, and others.
+#ifndef FUZZ_GCODE_LINES_H
+#define FUZZ_GCODE_LINES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fuzz_text.h"
+#include "stepper/stepper.h"
+
+typedef enum {
+    FUZZ_GCODE_NOTHING,
+    FUZZ_GCODE_MOVE,
+    FUZZ_GCODE_DWELL,
+    FUZZ_GCODE_OFFSET,
+    FUZZ_GCODE_SPINDLE
+} fuzz_gcode_kind_t;
+
+// A right line, as it is meant.
+typedef struct {
+    fuzz_gcode_kind_t kind;
+    bool sets_motion;   // G0 or G1 in the line
+    bool rapid;         // which
+    bool sets_distance; // G90 or G91
+    bool relative;      // which
+    uint32_t axes;      // bit n: axis n has a word
+    double value[AXIS_COUNT];
+    double feed; // 0: none
+} fuzz_gcode_line_t;
+
+// What is in force before the line.
+typedef struct {
+    bool has_motion;
+    bool rapid;
+    bool relative;
+    bool has_feed;
+    bool spindle; // there is a spindle pin
+} fuzz_gcode_modal_t;
+
+// Makes a line that has to be accepted and fits `modal`; the axes must be configured, and targets
+// stay within 60 units of zero if they began there.
+void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
+                           const fuzz_gcode_modal_t *modal, const double work_position[AXIS_COUNT]);
+
+// Makes a line of words that each look right, in any combination.
+void fuzz_gcode_any_line(fuzz_text_t *text);
+
+#endif
