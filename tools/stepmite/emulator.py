@@ -160,11 +160,14 @@ class Emulator:
         match: list[str] = self.request("expect", pattern=pattern, timeout_ms=timeout_ms)["match"]
         return match
 
-    def command(self, line: str, prompt: str = "> ", timeout_ms: float = 2000) -> str:
+    def until(self, suffix: str, timeout_ms: float = 2000) -> str:
+        """Run until the output ends with `suffix`; take all of it, return what stood before."""
+        return str(self.request("until", suffix=suffix, timeout_ms=timeout_ms)["text"])
+
+    def command(self, line: str, prompt: str = "\n> ", timeout_ms: float = 2000) -> str:
         """Type a line at the prompt; return what was printed until the next prompt."""
         self.send(line + "\r")
-        escaped = "".join(f"\\{c}" if not c.isalnum() and not c.isspace() else c for c in prompt)
-        return self.expect(f"([^]*?)(?:^|\\n){escaped}$", timeout_ms)[1]
+        return self.until(prompt, timeout_ms)
 
     def output(self) -> str:
         """Take all output that has come over USB so far."""

@@ -2,6 +2,7 @@
 #include <stdio.h>
 
 #include "hardware/irq.h"
+#include "hardware/structs/mpu.h"
 #include "hardware/sync.h"
 #include "pico/stdlib.h"
 
@@ -63,8 +64,26 @@ static bool on_main_stack(uint32_t sp) {
     return sp >= 0x20040000 && sp < 0x20042000;
 }
 
+// The planted fault: a guard below the stack, as the firmware sets it up, and a write into it.
+static void write_into_guard(void) {
+    static uint32_t guarded[128] __attribute__((aligned(256)));
+    mpu_hw->rbar = (uintptr_t)guarded | M0PLUS_MPU_RBAR_VALID_BITS;
+    mpu_hw->rasr = M0PLUS_MPU_RASR_ENABLE_BITS | (7u << M0PLUS_MPU_RASR_SIZE_LSB);
+    mpu_hw->ctrl = M0PLUS_MPU_CTRL_PRIVDEFENA_BITS | M0PLUS_MPU_CTRL_ENABLE_BITS;
+    __dsb();
+    __isb();
+    guarded[64] = 1; // just behind it
+    printf("beside\n");
+    stdio_flush();
+    sleep_ms(5);
+    guarded[63] = 1;
+}
+
+// 0: look at the stacks; 1: write into a guard.
 void check_stack(int argument) {
-    (void)argument;
+    if (argument == 1) {
+        write_into_guard();
+    }
     static bool installed;
     if (!installed) {
         installed = true;

@@ -4,6 +4,7 @@
 
 #include "hardware/flash.h"
 #include "hardware/sync.h"
+#include "hardware/timer.h"
 #include "pico/stdlib.h"
 
 #include "check.h"
@@ -26,10 +27,28 @@ static void program(const uint8_t *page) {
     restore_interrupts(saved);
 }
 
-// 0: erase, program, program again; 1: only show what is there.
-void check_storage(int only_show) {
+static volatile uint32_t alarms;
+
+static void on_alarm(uint alarm) {
+    (void)alarm;
+    alarms++;
+}
+
+// The planted fault: an interrupt whose code lies in flash, while the flash erases.
+static void interrupt_while_busy(void) {
+    uint alarm = (uint)hardware_alarm_claim_unused(true);
+    hardware_alarm_set_callback(alarm, on_alarm);
+    hardware_alarm_set_target(alarm, make_timeout_time_us(5000));
+    flash_range_erase(OFFSET, FLASH_SECTOR_SIZE);
+}
+
+// 0: erase, program, program again; 1: only show what is there; 2: erase with interrupts on.
+void check_storage(int kind) {
     uint8_t page[FLASH_PAGE_SIZE];
-    if (only_show == 0) {
+    if (kind == 2) {
+        interrupt_while_busy();
+    }
+    if (kind == 0) {
         uint64_t start_us = time_us_64();
         erase();
         printf("erased %02x in %lu us\n", *flash_at(OFFSET), (unsigned long)(time_us_64() - start_us));

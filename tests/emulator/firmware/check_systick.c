@@ -24,7 +24,7 @@ static void __not_in_flash_func(on_tick)(void) {
     sio_hw->gpio_clr = 1u << CHECK_GPIO_TICK;
 }
 
-static void start(void) {
+static void set_up(void) {
     static bool installed;
     if (!installed) {
         installed = true;
@@ -38,6 +38,9 @@ static void start(void) {
         gpio_init(CHECK_GPIO_MAIN);
         gpio_set_dir(CHECK_GPIO_MAIN, GPIO_OUT);
     }
+}
+
+static void start(void) {
     systick_hw->rvr = TICK_CYCLES - 1;
     systick_hw->cvr = 0;
     scb_hw->icsr = PENDSTCLR;
@@ -52,6 +55,7 @@ static void stop(void) {
 // 0: main sleeps in WFI; 1: main computes; 2: main divides and prints (USB under load).
 void check_systick(int busy) {
     ticks = 0;
+    set_up();
     start();
     uint32_t rounds = 0;
     while (ticks < 2000) {
@@ -69,6 +73,7 @@ void check_systick(int busy) {
 void check_systick_stop(int argument) {
     (void)argument;
     ticks = 0;
+    set_up();
     uint32_t saved = save_and_disable_interrupts();
     gpio_put(CHECK_GPIO_MAIN, true);
     start();

@@ -115,11 +115,27 @@ export class Board {
         this.chip.uarts[index].feed(bytes);
     }
 
+    // Runs until the USB output ends with `suffix`; takes all of it and returns what stood before.
+    until(suffix, timeoutNanos) {
+        if (!this.run(this.now + timeoutNanos, () => this.output.endsWith(suffix))) this.timedOut(JSON.stringify(suffix), timeoutNanos);
+        const text = this.output.slice(0, -suffix.length);
+        this.output = '';
+        return text;
+    }
+
+    timedOut(what, nanos) {
+        throw new Error(`waited ${nanos / 1e6} ms for ${what}, got ${JSON.stringify(this.output.slice(-400))}`);
+    }
+
     // Runs until the USB output matches; removes it up to the end of the match, which it returns (an array).
     expect(pattern, timeoutNanos) {
-        if (!this.run(this.now + timeoutNanos, () => pattern.test(this.output))) {
-            throw new Error(`waited ${timeoutNanos / 1e6} ms for ${pattern}, got ${JSON.stringify(this.output.slice(-400))}`);
-        }
+        let looked = -1; // length of the output at the last look
+        const found = () => {
+            if (this.output.length === looked) return false;
+            looked = this.output.length;
+            return pattern.test(this.output);
+        };
+        if (!this.run(this.now + timeoutNanos, found)) this.timedOut(pattern, timeoutNanos);
         const match = pattern.exec(this.output);
         this.output = this.output.slice(match.index + match[0].length);
         return [...match];

@@ -22,13 +22,19 @@ export class Bus {
     // Cycles of this run until the next alarm or the end; negative if the loop around the executor has to act.
     refreshStop() {
         const { S, nvic } = this;
+        if (S.leave) {
+            S.leave = 0;
+            S.stop = -1;
+            return;
+        }
         if (nvic.ready !== 0 || S.sleeping || S.reset || S.locked || S.excReturn) {
             S.stop = -1;
             return;
         }
         const alarm = this.clock.nextAlarm;
         const end = alarm !== null && alarm.nanos < S.limitNanos ? alarm.nanos : S.limitNanos;
-        S.stop = Math.min(FOREVER, Math.ceil((end - S.startNanos) / S.nanosPerCycle - 1e-6));
+        // At least one: slow clocks have cycles that are no whole nanoseconds, and time has to go on.
+        S.stop = Math.max(1, Math.min(FOREVER, Math.ceil((end - S.startNanos) / S.nanosPerCycle - 1e-6)));
     }
 
     // A hard fault of the running instruction.
@@ -76,7 +82,15 @@ export class Bus {
         return size === 4 ? word : word >>> 8 * (address & 3);
     }
 
+    guarded(address) {
+        return (address - 0x20000000 - this.S.guardStart) >>> 0 < this.S.guardSize;
+    }
+
     write(address, size, value) {
+        if (this.guarded(address)) {
+            this.fault('write into the stack guard', address);
+            return;
+        }
         if (address >>> 28 === 0xd) {
             // The chip copies a narrow value over all lanes of a peripheral register.
             this.mcu.sio.writeUint32(address & 0xffffffc, size === 4 ? value : Math.imul(value, size === 2 ? 0x10001 : 0x1010101) >>> 0);
@@ -100,6 +114,7 @@ export class Bus {
     // A word of RAM or flash outside of any instruction: exception frames and vectors.
     plain(address, write, value) {
         const offset = address - 0x20000000;
+        if (write && this.guarded(address)) return this.fault('exception frame in the stack guard', address);
         if (offset >= 0 && offset + 4 <= this.mcu.sram.length) {
             if (write) this.mcu.sramView.setUint32(offset, value, true);
             return write ? 0 : this.mcu.sramView.getUint32(offset, true) | 0;

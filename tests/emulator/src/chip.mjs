@@ -7,6 +7,7 @@ import { Bus } from './bus.mjs';
 import { installCoreRegisters } from './core_registers.mjs';
 import { createExecutor } from './executor.mjs';
 import { Flash } from './flash.mjs';
+import { Mpu } from './mpu.mjs';
 import { Nvic } from './nvic.mjs';
 import { Pads } from './pads.mjs';
 import { installPio } from './pio.mjs';
@@ -59,7 +60,7 @@ export class Chip {
         Object.assign(this.bus, { nvic: this.nvic, flash: this.flash });
         mcu.core = this.nvic; // the peripherals raise their interrupts here
         installCoreRegisters({
-            mcu, S, nvic: this.nvic, systick: this.systick,
+            mcu, S, nvic: this.nvic, systick: this.systick, mpu: new Mpu({ S, onFault: listener.onFault }),
             onReset: () => { S.reset = RESET.SYSTEM; },
         });
         const system = createSystem({ S, R, bus: this.bus, nvic: this.nvic });
@@ -135,6 +136,7 @@ export class Chip {
     runInstructions() {
         const { S, bus, clock } = this;
         S.startNanos = clock.nanosCounter;
+        S.leave = 0;
         bus.refreshStop();
         if (S.stop < 0) return;
         const cycles = this.execute();

@@ -22,6 +22,7 @@ const operations = {
     },
     send({ text }) { board.send(bytesOf(text)); },
     expect({ pattern, timeout_ms: timeout }) { return { match: board.expect(new RegExp(pattern), timeout * MS) }; },
+    until({ suffix, timeout_ms: timeout }) { return { text: board.until(suffix, timeout * MS) }; },
     output() {
         const text = board.output;
         board.output = '';

@@ -1,10 +1,10 @@
-// The core's own registers at 0xe000e000: SysTick, NVIC, system control. Takes the place of rp2040js's PPB.
+// The core's own registers at 0xe000e000: SysTick, NVIC, system control, memory protection. Takes the place of rp2040js's PPB.
 
 import { EXCEPTION } from './nvic.mjs';
 
 const CPUID = 0x410cc601, RESET_KEY = 0x05fa;
 
-export function installCoreRegisters({ mcu, S, nvic, systick, onReset }) {
+export function installCoreRegisters({ mcu, S, nvic, systick, mpu, onReset }) {
     const priorityWord = (index) => [0, 1, 2, 3].reduce((word, i) => word | nvic.priorities[4 * index + i] << (8 * i + 6), 0);
 
     function setPriorityWord(index, word) {
@@ -32,6 +32,7 @@ export function installCoreRegisters({ mcu, S, nvic, systick, onReset }) {
 
     function read(offset) {
         if (offset >= 0x400 && offset < 0x420) return priorityWord((offset - 0x400) >> 2);
+        if (mpu.has(offset)) return mpu.read(offset);
         switch (offset) {
             case 0x010: return systick.readControl();
             case 0x014: return systick.reload;
@@ -47,12 +48,13 @@ export function installCoreRegisters({ mcu, S, nvic, systick, onReset }) {
             case 0xd14: return 0x208; // unaligned accesses fault, 8-byte aligned stack
             case 0xd1c: return nvic.systemPriority[EXCEPTION.SVCALL] << 30;
             case 0xd20: return nvic.systemPriority[EXCEPTION.PENDSV] << 22 | nvic.systemPriority[EXCEPTION.SYSTICK] << 30;
-            default: return 0; // the memory protection unit is not modelled
+            default: return 0;
         }
     }
 
     function write(offset, value) {
         if (offset >= 0x400 && offset < 0x420) return setPriorityWord((offset - 0x400) >> 2, value);
+        if (mpu.has(offset)) return mpu.write(offset, value);
         switch (offset) {
             case 0x010: return systick.writeControl(value);
             case 0x014: systick.reload = value & 0xffffff; return;

@@ -50,7 +50,8 @@ const loadWord = (a, cyc) => {
 };
 const storeWord = (a, value, cyc) => {
     const o = (a - 0x20000000) >>> 0;
-    if (o < RAM_SIZE && (o & 3) === 0) ram32[o >>> 2] = value; else bus.write32(a >>> 0, value, cyc);
+    if (o < RAM_SIZE && (o & 3) === 0 && ((o - S.guardStart) >>> 0) >= S.guardSize) ram32[o >>> 2] = value;
+    else bus.write32(a >>> 0, value, cyc);
 };
 const codeAt = (a) => {
     const o = (a - 0x20000000) >>> 0, f = (a - 0x10000000) >>> 0;
@@ -58,7 +59,7 @@ const codeAt = (a) => {
 };
 return function run() {
     let pc = S.pc, nz = S.nz, c = S.c, v = S.v, cyc = 0, stop = S.stop;
-    const xip = S.xip, watch = S.watch;
+    const { xip, watch, guardStart, guardSize } = S;
     while (cyc < stop) {
         const o = (pc - 0x20000000) >>> 0, f = (pc - 0x10000000) >>> 0;
         let op;

@@ -145,7 +145,7 @@ export class Flash extends BasePeripheral {
         this.busyUntil = this.clock.nanosCounter + nanos;
         this.wake.schedule(nanos);
         this.S.xip = 0; // from now on the executor asks the bus
-        this.S.stop = -1;
+        this.S.leave = 1;
     }
 
     ready() {

@@ -33,7 +33,7 @@ const load = (size, target, address, extend = '') => {
 const store = (size, value, address) => {
     const [ram] = ARRAY[size], aligned = size > 1 ? ` && (o & ${size - 1}) === 0` : '';
     return `{ const a = (${address}) | 0, o = (a - 0x20000000) >>> 0;
-    if (o < RAM_SIZE${aligned}) { ${ram}[o >>> ${SHIFT[size]}] = ${value}; cyc += 1; }
+    if (o < RAM_SIZE${aligned} && ((o - guardStart) >>> 0) >= guardSize) { ${ram}[o >>> ${SHIFT[size]}] = ${value}; cyc += 1; }
     else { S.pc = pc; bus.write${size * 8}(a >>> 0, ${value}, cyc); stop = S.stop; cyc += S.cost - 1; } }`;
 };
 

@@ -10,6 +10,8 @@ export function createState() {
         // Executor: how far to go, how much of the flash can be read, who wants to know of branches.
         stop: 0,           // cycles of this run(); negative: leave at once
         xip: 0,            // bytes of flash that can be read; 0 while it erases or programs
+        guardStart: 0,     // memory that faults when written (the stack guard), as an offset into RAM
+        guardSize: 0,      // 0: none
         watch: null,       // (target, cycles) => void, called at every taken branch
         // Time: clock = startNanos + cycles of this run() * nanosPerCycle.
         startNanos: 0,
@@ -27,6 +29,7 @@ export function createState() {
         event: 0,          // the event register of WFE
         sleeping: SLEEP.NONE,
         // Requests to the loop around the executor.
+        leave: 0,          // come back at once: the executor has to read xip and the guard anew
         excReturn: 0,      // magic value of an exception return under way; 0: none
         faultPc: 0,
         locked: 0,         // lock-up: a fault inside the fault handler
