@@ -72,6 +72,7 @@ def test_machine_that_is_not_armed_is_started_once(fake):
     stream(machine)
     assert machine.accepted == CODES
     assert machine.runs == 1
+    assert machine.used == 0  # the end of motion was waited for
 
 
 def test_short_job_starts_too(fake):
@@ -79,6 +80,7 @@ def test_short_job_starts_too(fake):
     stream(machine, ["G1 X1 F100"])
     assert machine.accepted == ["G1X1F100"]
     assert machine.runs == 1
+    assert machine.used == 0
 
 
 def test_without_arming_a_job_is_only_queued(fake):

@@ -130,7 +130,8 @@ class Streamer:
         self._board = board
         self._job = job
         self._reserve = reserve
-        self._arm = arm
+        self._to_the_end = arm
+        self._may_arm = arm
         self._on_progress = on_progress
         self._cancel = False
         self._credit = 0
@@ -155,7 +156,7 @@ class Streamer:
             self._check_ready()
             while self._sent < len(self._job.lines):
                 self._send_batch(self._next_batch())
-            if self._arm:
+            if self._to_the_end:
                 self._wait_for_end()
         except Cancelled:
             self._board.cancelled = None
@@ -194,9 +195,9 @@ class Streamer:
 
     def _start_if_idle(self) -> bool:
         """Arm a machine that has work and does nothing; False if it is no use."""
-        if not self._arm:
+        if not self._may_arm:
             return False
-        self._arm = False
+        self._may_arm = False
         self._board.command("STEPPER RUN")
         return True
 
