@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 PYTHON := .venv/bin/python
 
-.PHONY: help run host firmware test bench demo fuzz format clean
+.PHONY: help run host firmware test bench demo fuzz reference format clean
 .DEFAULT_GOAL := help
 
 help: ## say what there is
@@ -41,6 +41,11 @@ fuzz: ## feed garbage to the prompt and the G-code reader for FUZZ_SECONDS (600)
 	@tools/setup fuzz
 	@$(call build,asan,-DSTEPMITE_TESTS=ON,stepmite_fuzz)
 	@build/asan/stepmite_fuzz --seconds $(FUZZ_SECONDS)
+
+reference: ## docs/reference.md from the firmware's tables
+	@tools/setup host
+	@$(call build,host,,stepmite_reference)
+	@build/host/tools/reference/stepmite_reference >docs/reference.md
 
 format: ## put our C files into the common form
 	@tools/setup format

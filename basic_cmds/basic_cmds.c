@@ -60,7 +60,7 @@ static const basic_arg_spec_t junction_args[] = {
 };
 
 static const basic_arg_spec_t run_args[] = {
-    {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1, .help = "as the second argument"},
+    {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1, .help = "the same as the next"},
     {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1,
      .help = "when idle 0: drivers stay on, 1: drivers off"},
 };

@@ -1,0 +1,22 @@
+"""The command reference is what the firmware's tables say."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build/host/tools/reference/stepmite_reference"
+
+
+def test_reference_page_is_current() -> None:
+    """docs/reference.md was made from the rows as they are; if not: `make reference`."""
+    made = subprocess.run([PROGRAM], capture_output=True, text=True, check=True).stdout
+    assert (ROOT / "docs/reference.md").read_text() == made
+
+
+def test_every_argument_is_explained() -> None:
+    """No row of the page has an empty place."""
+    for line in (ROOT / "docs/reference.md").read_text().splitlines():
+        if line.startswith("|"):
+            assert all(cell.strip() for cell in line.strip("|").split("|")), line

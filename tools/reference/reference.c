@@ -1,0 +1,104 @@
+// Prints docs/reference.md from the command rows. Built for the host with all parts; `make reference`
+// writes the page and a test compares it. Context: a program of its own.
+#include <stdio.h>
+#include <string.h>
+
+#include "basic_cmds/basic_cmds.h"
+
+static const char *const kinds[] = {
+    [BASIC_ARG_NUMBER] = "number",   [BASIC_ARG_INTEGER] = "whole number", [BASIC_ARG_TEXT] = "string",
+    [BASIC_ARG_CHOICE] = "word",     [BASIC_ARG_WORD] = "word",            [BASIC_ARG_PIN] = "pin",
+    [BASIC_ARG_RAW] = "rest of line",
+};
+
+static bool has(const basic_arg_spec_t *arg, unsigned flag) {
+    return (arg->flags & flag) != 0;
+}
+
+// " axis, step_pin [, enable_pin] ..." as the reference of the command set writes it.
+static void print_syntax(const basic_arg_spec_t *args, size_t count) {
+    bool repeating = false;
+    for (size_t i = 0; i < count; i++) {
+        const char *comma = i > 0 ? ", " : "";
+        if (has(&args[i], BASIC_ARG_REPEAT)) {
+            repeating = true;
+            printf(" [%s%s", comma, args[i].name);
+        } else if (has(&args[i], BASIC_ARG_OPTIONAL) && !repeating) {
+            printf(i > 0 ? " [%s%s]" : "[%s%s]", comma, args[i].name);
+        } else {
+            printf("%s%s", comma, args[i].name);
+        }
+    }
+    printf("%s", repeating ? "] ..." : "");
+}
+
+static void print_values(const basic_arg_spec_t *arg) {
+    if (arg->choices != NULL) {
+        for (const char *p = arg->choices; *p != '\0'; p++) {
+            printf("%s", *p == '|' ? ", " : (char[2]){*p, '\0'});
+        }
+    } else if (arg->min < arg->max) {
+        printf("%s%.9g to %.9g", has(arg, BASIC_ARG_ABOVE_MIN) ? "above " : "", arg->min, arg->max);
+    } else {
+        printf("%s", kinds[arg->kind]);
+    }
+    printf("%s%s", arg->unit != NULL ? " " : "", arg->unit != NULL ? arg->unit : "");
+}
+
+static void print_default(const basic_arg_spec_t *arg) {
+    if (has(arg, BASIC_ARG_DEFAULT)) {
+        printf("%.9g", arg->fallback);
+    } else if (has(arg, BASIC_ARG_OPTIONAL)) {
+        printf(arg->kind == BASIC_ARG_PIN ? "none" : "may be left out");
+    } else if (has(arg, BASIC_ARG_REPEAT)) {
+        printf("repeats");
+    } else {
+        printf("needed");
+    }
+}
+
+static void print_args(const basic_arg_spec_t *args, size_t count) {
+    if (count == 0) {
+        return;
+    }
+    printf("| argument | what | values | if left out |\n| --- | --- | --- | --- |\n");
+    for (size_t i = 0; i < count; i++) {
+        printf("| %s | %s | ", args[i].name, args[i].help);
+        print_values(&args[i]);
+        printf(" | ");
+        print_default(&args[i]);
+        printf(" |\n");
+    }
+    printf("\n");
+}
+
+static void print_command(const basic_command_t *command) {
+    printf("## %s\n\n```\n%s%s", command->name, command->name, command->arg_count > 0 ? " " : "");
+    print_syntax(command->args, command->arg_count);
+    printf("\n```\n\n%s.\n\n", command->help);
+    print_args(command->args, command->arg_count);
+}
+
+static void print_function(const basic_function_t *function) {
+    const char *keyword = function->keyword != NULL ? function->keyword : "";
+    const char *gap = function->keyword != NULL ? " " : "";
+    printf("## %s(%s)\n\n```\n%s(%s%s", function->name, keyword, function->name, keyword, gap);
+    print_syntax(function->args, function->arg_count);
+    printf(")\n```\n\n%s.\n\n", function->help);
+    print_args(function->args, function->arg_count);
+}
+
+int main(void) {
+    printf("# Command reference\n\n"
+           "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in brackets may be\n"
+           "left out, in the middle by leaving the place between two commas blank. A pin is `GP2`, `\"GP2\"` or a GPIO\n"
+           "number; where a pin may be left out, 0 means none. The [user guide](user-guide.md) shows how the commands\n"
+           "work together.\n\n");
+    for (size_t i = 0; i < basic_cmds_command_count; i++) {
+        print_command(&basic_cmds_commands[i]);
+    }
+    for (size_t i = 0; i < basic_cmds_function_count; i++) {
+        print_function(&basic_cmds_functions[i]);
+    }
+    return 0;
+}
