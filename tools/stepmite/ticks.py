@@ -7,8 +7,10 @@ stays below a period, rounding down gives the tick back.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -23,6 +25,26 @@ class TickEdge:
     tick: int
     gpio: int
     level: int
+
+
+def read_tick_runs(report: Path) -> list[TickRun]:
+    """Return the tick runs in a report of `stepmite emulate --report`."""
+    content = json.loads(report.read_text(encoding="utf-8"))
+    return [TickRun(**run) for run in content["tick_runs"]]
+
+
+def estimate_tick_run(edges: Edges, period_ns: int = TICK_NS) -> TickRun:
+    """Find the grid from the edges of one run alone, where nobody noted it.
+
+    The edges of a tick follow it within a part of the period; the widest part of the period in
+    which no edge ever falls ends at the earliest edge. The grid returned goes through that edge, so
+    it lies up to the shortest latency late, which does not change any rounding.
+    """
+    phases = np.unique(edges.time_ns % period_ns)
+    gaps = np.diff(np.concatenate([phases, phases[:1] + period_ns]))
+    phase = int(phases[(int(np.argmax(gaps)) + 1) % len(phases)])
+    first = int(edges.time_ns[0]) - (int(edges.time_ns[0]) - phase) % period_ns
+    return TickRun(first, period_ns, (int(edges.time_ns[-1]) - first) // period_ns + 1)
 
 
 def snap_to_ticks(edges: Edges, runs: Sequence[TickRun]) -> Edges:
@@ -47,16 +69,19 @@ def latencies_ns(edges: Edges, runs: Sequence[TickRun]) -> np.ndarray:
     return late[inside]
 
 
-def tick_train(edges: Edges, gpios: Iterable[int]) -> list[TickEdge]:
-    """Return the edges of these pins by tick, counted from the tick of the first of them.
+def tick_train(edges: Edges, gpios: Iterable[int], begin: Iterable[int]) -> list[TickEdge]:
+    """Return the edges of these pins by tick, counted from the first edge of a pin in `begin`.
 
-    Give it edges that lie on one grid: of the host, or after snap_to_ticks.
+    What comes before it (pins being set up) is left out. Give it edges that lie on one grid: of the
+    host, or after snap_to_ticks.
     """
     mine = np.isin(edges.gpio, list(gpios))
-    if not mine.any():
+    starts = np.flatnonzero(np.isin(edges.gpio, list(begin)))
+    if len(starts) == 0:
         return []
+    mine[: starts[0]] = False
     times = edges.time_ns[mine]
-    ticks = (times - times[0]) // TICK_NS
+    ticks = (times - edges.time_ns[starts[0]]) // TICK_NS
     rows = zip(ticks.tolist(), edges.gpio[mine].tolist(), edges.level[mine].tolist(), strict=True)
     return [TickEdge(*row) for row in rows]
 
