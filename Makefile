@@ -25,7 +25,7 @@ firmware: ## build/pico/stepmite-pico.uf2 and build/pico2/stepmite-pico2.uf2
 test: ## every test; under 15 minutes on two cores
 	@tools/setup test
 	@$(foreach preset,host asan pico pico2,$(call build,$(preset),-DSTEPMITE_TESTS=ON,all) &&) true
-	@$(PYTHON) -m pytest tests
+	@$(PYTHON) -m pytest -q -n $(JOBS) --timeout 600 tests
 
 bench: ## cycles of tick, governor and G-code line, counted in the emulator
 	@tools/setup bench
