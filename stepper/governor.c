@@ -279,6 +279,7 @@ void governor_stop(void) {
 
 void governor_emergency_stop(void) {
     int32_t steps[AXIS_COUNT];
+    hal_tick_stop(); // before the position is read: no step may come behind it
     governor_position(steps);
     step_isr_abort();
     drop_blocks();
