@@ -1,6 +1,7 @@
 // The instruction loop. Context: main loop.
 #include "vm.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -127,10 +128,15 @@ static bool for_next_slowly(uint16_t variable, const value_t *pair) {
 
 static inline bool for_next(uint16_t variable, const value_t *pair) {
     value_t *slot = variables_slot(variable);
-    if (slot->type == VALUE_INTEGER && pair->type == VALUE_INTEGER && slot->flags == 0 &&
-        pair[1].integer == 1 && slot->integer < pair->integer) {
-        slot->integer++;
-        return true;
+    if (slot->type == pair->type && slot->flags == 0) {
+        if (slot->type == VALUE_INTEGER && pair[1].integer == 1 && slot->integer < pair->integer) {
+            slot->integer++;
+            return true;
+        }
+        if (slot->type == VALUE_FLOAT) {
+            slot->number += pair[1].number;
+            return signbit(pair[1].number) ? slot->number >= pair->number : slot->number <= pair->number;
+        }
     }
     return for_next_slowly(variable, pair);
 }

@@ -1,0 +1,166 @@
+// A board in memory for the language's unit tests.
+#include "board.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "hal/hal.h"
+
+#define INPUT_SIZE 40000
+#define SHOWN_SIZE 100000
+#define ARENA_SIZE (96 * 1024)
+
+board_t board;
+
+static struct {
+    char input[INPUT_SIZE];
+    size_t received, typed;
+    char later[64];
+    uint64_t later_us;
+    char shown[SHOWN_SIZE];
+    size_t shown_length;
+    uint8_t flash[HAL_STORAGE_SIZE];
+    _Alignas(8) uint8_t arena[ARENA_SIZE];
+    basic_config_t config;
+} state;
+
+void board_reset(void) {
+    memset(&state, 0, sizeof state);
+    memset(state.flash, 0xFF, sizeof state.flash);
+    board = (board_t){.fail_program_after = -1};
+}
+
+static void count_background(void) {
+    board.backgrounds++;
+}
+
+static void count_break(void) {
+    board.breaks++;
+}
+
+void board_start(const basic_command_t *commands, size_t command_count, const basic_function_t *functions,
+                 size_t function_count) {
+    state.config = (basic_config_t){
+        .arena = state.arena,
+        .arena_size = sizeof state.arena,
+        .commands = commands,
+        .command_count = command_count,
+        .functions = functions,
+        .function_count = function_count,
+        .background = count_background,
+        .on_break = count_break,
+    };
+    basic_start(&state.config);
+}
+
+void board_type(const char *bytes, size_t length) {
+    memcpy(state.input + state.typed, bytes, length);
+    state.typed += length;
+}
+
+void board_type_at(uint64_t time_us, const char *text) {
+    state.later_us = time_us;
+    snprintf(state.later, sizeof state.later, "%s", text);
+}
+
+const char *board_shown(void) {
+    static char copy[SHOWN_SIZE];
+    memcpy(copy, state.shown, state.shown_length);
+    copy[state.shown_length] = '\0';
+    state.shown_length = 0;
+    return copy;
+}
+
+const char *board_session(const char *text) {
+    board_shown();
+    board_type(text, strlen(text));
+    while (basic_prompt()) {
+    }
+    return board_shown();
+}
+
+// ---- The board -----------------------------------------------------------------------------------
+
+static void type_what_is_due(void) {
+    if (state.later[0] != '\0' && board.time_us >= state.later_us) {
+        char text[sizeof state.later];
+        strcpy(text, state.later);
+        state.later[0] = '\0';
+        board_type(text, strlen(text));
+    }
+}
+
+size_t hal_console_read(uint8_t *bytes, size_t size) {
+    type_what_is_due();
+    size_t count = state.typed - state.received;
+    count = count < size ? count : size;
+    memcpy(bytes, state.input + state.received, count);
+    state.received += count;
+    return count;
+}
+
+size_t hal_console_write(const uint8_t *bytes, size_t size) {
+    if (board.time_us < board.blocked_until_us) {
+        return 0;
+    }
+    size_t room = SHOWN_SIZE - 1 - state.shown_length;
+    size = size < room ? size : room;
+    memcpy(state.shown + state.shown_length, bytes, size);
+    state.shown_length += size;
+    board.writes++;
+    return size;
+}
+
+bool hal_end_of_input(void) {
+    return state.received == state.typed && state.later[0] == '\0';
+}
+
+uint64_t hal_time_us(void) {
+    return board.time_us;
+}
+
+void hal_idle(uint64_t until_us) {
+    uint64_t next = until_us;
+    if (state.later[0] != '\0' && state.later_us < next) {
+        next = state.later_us;
+    }
+    if (next != UINT64_MAX && next > board.time_us) {
+        board.time_us = next;
+    }
+}
+
+void hal_statement(void) {
+    board.statements++;
+    board.time_us += 10;
+}
+
+bool hal_tick_running(void) {
+    return board.ticking;
+}
+
+const char *hal_board_name(void) {
+    return "test board";
+}
+
+void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
+    memcpy(bytes, state.flash + offset, size);
+}
+
+bool hal_storage_erase(uint32_t offset) {
+    if (board.ticking) {
+        return false;
+    }
+    memset(state.flash + offset, 0xFF, HAL_STORAGE_SECTOR);
+    return true;
+}
+
+bool hal_storage_program(uint32_t offset, const void *page) {
+    if (board.ticking || board.fail_program_after == 0) {
+        return false;
+    }
+    board.fail_program_after -= board.fail_program_after > 0;
+    for (size_t i = 0; i < HAL_STORAGE_PAGE; i++) {
+        state.flash[offset + i] &= ((const uint8_t *)page)[i];
+    }
+    return true;
+}

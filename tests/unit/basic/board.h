@@ -1,0 +1,44 @@
+// A board for the language's unit tests: a terminal with scripted input, flash in memory, time that
+// passes only while the firmware idles.
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "basic/basic.h"
+
+// Everything is as after power-on; the flash is empty.
+void board_reset(void);
+
+// Starts the language on this board with these rows.
+void board_start(const basic_command_t *commands, size_t command_count, const basic_function_t *functions,
+                 size_t function_count);
+
+// Bytes the terminal sends next.
+void board_type(const char *bytes, size_t length);
+
+// Bytes the terminal sends once the time has come.
+void board_type_at(uint64_t time_us, const char *text);
+
+// What was shown since the last call; zero-terminated.
+const char *board_shown(void);
+
+// Runs the prompt on `text` until all of it is taken; returns what was shown, the last prompt included.
+const char *board_session(const char *text);
+
+typedef struct {
+    uint64_t time_us;
+    uint64_t blocked_until_us; // the terminal takes no output before
+    bool ticking;         // motion runs: the flash is busy
+    unsigned writes;      // calls of hal_console_write() that took something
+    unsigned backgrounds; // calls of the background hook
+    unsigned breaks;      // calls of on_break
+    unsigned statements;
+    int fail_program_after; // pages until programming the flash fails, -1: never
+} board_t;
+
+extern board_t board;
+
+#endif

@@ -1,0 +1,156 @@
+// The console and the line editor: one write for a paste, notices while typing, Ctrl-C in every state, a
+// terminal that does not read; and the program in flash when writing fails.
+#include <string.h>
+
+#include <unity.h>
+
+#include "board.h"
+
+void setUp(void) {
+    board_reset();
+    board_start(NULL, 0, NULL, 0);
+}
+void tearDown(void) {}
+
+static void test_a_pasted_line_is_echoed_in_one_write(void) {
+    board.writes = 0;
+    board_session("a=1234567890+1234567890\r");
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(3, board.writes); // prompt and echo, nothing to print, next prompt
+}
+
+static void test_ctrl_c_ends_a_loop_without_a_pause(void) {
+    board_type_at(5000, "\x03");
+    board_session("DO:LOOP\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+    TEST_ASSERT_LESS_THAN_UINT64(10000, board.time_us);
+}
+
+static void test_ctrl_c_ends_a_pause_at_once(void) {
+    board_type_at(20000, "\x03");
+    const char *shown = board_session("PAUSE 100000\r");
+    TEST_ASSERT_EQUAL_STRING("> PAUSE 100000\r\n> ", shown);
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+    TEST_ASSERT_LESS_THAN_UINT64(21000, board.time_us);
+}
+
+static void test_ctrl_c_at_the_prompt_clears_the_line(void) {
+    const char *shown = board_session("PRINT 1\x03PRINT 2\r");
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 2\r\n"));
+    TEST_ASSERT_NULL(strstr(shown, "\r\n 1\r\n"));
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+}
+
+static void test_ctrl_c_ends_an_input(void) {
+    board_type_at(20000, "\x03");
+    board_session("INPUT a\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+}
+
+static void test_a_terminal_that_does_not_read_blocks_nothing_but_the_output(void) {
+    board_type_at(500000, "\x03");
+    board_type("DO:PRINT \"xxxxxxxxxxxxxxxxxxxxxxxxxxxxx\":LOOP\r", 45);
+    board.blocked_until_us = 600000;
+    unsigned before = board.backgrounds;
+    basic_prompt();
+    TEST_ASSERT_GREATER_THAN_UINT(before + 100, board.backgrounds);
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(board.blocked_until_us, board.time_us);
+    TEST_ASSERT_EQUAL_STRING("> PRINT 1\r\n 1\r\n> ", board_session("\rPRINT 1\r") + strlen("> \r\n"));
+}
+
+static void test_a_program_that_does_not_read_its_input_can_be_stopped(void) {
+    char junk[1500];
+    memset(junk, 'j', sizeof junk);
+    board_type("DO:PAUSE 10:LOOP\r", 17);
+    board_type(junk, sizeof junk);
+    board_type("\x03", 1);
+    basic_prompt();
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+}
+
+static void test_a_notice_stands_on_its_own_line(void) {
+    basic_printf("a");
+    basic_notice("limit %d", 5);
+    basic_printf("b\n");
+    board_session("");
+    board_type("x", 1);
+    basic_notice("plain");
+    const char *shown = board_session("");
+    TEST_ASSERT_NOT_NULL(strstr(shown, "plain\r\n"));
+}
+
+static err_t notice(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    basic_printf("half a line");
+    basic_notice("limit reached");
+    return ERR_OK;
+}
+
+static void test_a_notice_within_output(void) {
+    static const basic_command_t rows[] = {{"WARN", NULL, 0, notice, NULL}};
+    board_start(rows, 1, NULL, 0);
+    TEST_ASSERT_EQUAL_STRING("> WARN\r\nhalf a line\r\nlimit reached\r\n> ", board_session("WARN\r"));
+}
+
+static void test_format_number(void) {
+    char text[40];
+    TEST_ASSERT_EQUAL_STRING("0.3333333333", basic_format_number(text, sizeof text, 1.0 / 3.0));
+    TEST_ASSERT_EQUAL_STRING("0.3", basic_format_number(text, 4, 1.0 / 3.0));
+}
+
+#define PROGRAM(text) "AUTOSAVE\r" text "\r\x1a"
+
+static const char *run_again(void) {
+    board_start(NULL, 0, NULL, 0);
+    return board_session("RUN\r");
+}
+
+static void test_the_program_survives_a_restart(void) {
+    board_session(PROGRAM("PRINT 11"));
+    TEST_ASSERT_NOT_NULL(strstr(run_again(), "\r\n 11\r\n"));
+}
+
+static void test_power_lost_while_writing_leaves_the_old_program(void) {
+    board_session(PROGRAM("PRINT 11"));
+    for (int pages = 0; pages < 2; pages++) { // the text's page, then the header's
+        board.fail_program_after = pages;
+        board_session(PROGRAM("PRINT 22"));
+        board.fail_program_after = -1;
+        TEST_ASSERT_NOT_NULL(strstr(run_again(), "\r\n 11\r\n"));
+    }
+}
+
+static void test_no_change_while_motion_runs(void) {
+    board_session(PROGRAM("PRINT 11"));
+    board.ticking = true;
+    TEST_ASSERT_NOT_NULL(strstr(board_session("AUTOSAVE\r"), "Error : The program cannot be changed"));
+    TEST_ASSERT_NOT_NULL(strstr(board_session("NEW\r"), "Error : The program cannot be changed"));
+    TEST_ASSERT_NOT_NULL(strstr(board_session("RUN\r"), "\r\n 11\r\n"));
+}
+
+static void test_background_and_statements(void) {
+    unsigned before = board.statements;
+    board_session("FOR i%=1 TO 100:NEXT\r");
+    TEST_ASSERT_EQUAL_UINT(before + 101, board.statements); // FOR and 100 times NEXT
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT(101, board.backgrounds);
+}
+
+int main(void) {
+    UNITY_BEGIN();
+    RUN_TEST(test_a_pasted_line_is_echoed_in_one_write);
+    RUN_TEST(test_ctrl_c_ends_a_loop_without_a_pause);
+    RUN_TEST(test_ctrl_c_ends_a_pause_at_once);
+    RUN_TEST(test_ctrl_c_at_the_prompt_clears_the_line);
+    RUN_TEST(test_ctrl_c_ends_an_input);
+    RUN_TEST(test_a_terminal_that_does_not_read_blocks_nothing_but_the_output);
+    RUN_TEST(test_a_program_that_does_not_read_its_input_can_be_stopped);
+    RUN_TEST(test_a_notice_stands_on_its_own_line);
+    RUN_TEST(test_a_notice_within_output);
+    RUN_TEST(test_format_number);
+    RUN_TEST(test_the_program_survives_a_restart);
+    RUN_TEST(test_power_lost_while_writing_leaves_the_old_program);
+    RUN_TEST(test_no_change_while_motion_runs);
+    RUN_TEST(test_background_and_statements);
+    return UNITY_END();
+}
