@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from stepmite.emulator import PROJECT, Emulator
 
 BUILD = PROJECT / "build" / "pico"

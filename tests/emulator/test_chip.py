@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+
 from stepmite.emulator import Emulator
 from stepmite.ticks import latencies_ns
 from stepmite.trace import Edges
@@ -23,7 +24,9 @@ def numbers(text: str) -> dict[str, list[int]]:
 
 def test_flags_of_carry_and_shift_instructions(check: Emulator) -> None:
     result = numbers(check.command("a"))
-    assert result == {f"{name} tried": [512, 0] for name in ("adcs", "sbcs", "lsls", "lsrs", "asrs", "rors")}
+    assert result == {
+        f"{name} tried": [512, 0] for name in ("adcs", "sbcs", "lsls", "lsrs", "asrs", "rors")
+    }
 
 
 def test_cycles_of_instructions(check: Emulator) -> None:

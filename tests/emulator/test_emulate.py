@@ -1,4 +1,4 @@
-"""The command `stepmite emulate`: a plain pyserial program at the other end, files complete at the end.
+"""The command `stepmite emulate`: plain pyserial at the other end, files complete at the end.
 
 These run against the wall clock by nature, so they ask for order and completeness, never for times.
 """
@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import serial
+
 from stepmite.ticks import read_tick_runs, snap_to_ticks, tick_train
 from stepmite.trace import Edges
 
@@ -134,7 +135,9 @@ def test_faults_are_reported_and_fail_it(check_uf2: Path) -> None:
     assert "while it is busy" in result.stderr
 
 
-def test_an_ordinary_file_in_the_links_place_is_not_replaced(check_uf2: Path, tmp_path: Path) -> None:
+def test_an_ordinary_file_in_the_links_place_is_not_replaced(
+    check_uf2: Path, tmp_path: Path
+) -> None:
     link = tmp_path / "port"
     link.write_text("mine")
     result = subprocess.run(

@@ -13,7 +13,7 @@ FNV_PRIME, FNV_START = 0x100000001B3, 0xCBF29CE484222325
 
 
 class Float32:
-    """IEEE single: Python computes in double, and rounding that once more is exact for + - * / sqrt."""
+    """IEEE single: computed in double and rounded once more, which is exact for + - * / sqrt."""
 
     @staticmethod
     def value(bits: int) -> float:

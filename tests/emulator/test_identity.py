@@ -4,6 +4,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from stepmite.emulator import PROJECT, Emulator
 from stepmite.ticks import (
     TickEdge,

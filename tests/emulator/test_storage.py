@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 from stepmite.emulator import Emulator, EmulatorError
 
 STORAGE_SIZE = 256 * 1024
@@ -13,8 +14,10 @@ def test_erase_and_program(check: Emulator) -> None:
     result = check.command("s")
     erased = re.search(r"erased ff in (\d+) us", result)
     programmed = re.search(r"programmed a5 in (\d+) us", result)
-    assert erased and 45_000 < int(erased[1]) < 46_000  # 45 ms typical for a sector
-    assert programmed and 400 < int(programmed[1]) < 900  # 0.4 ms a page, and the SDK's work
+    assert erased
+    assert 45_000 < int(erased[1]) < 46_000  # 45 ms typical for a sector
+    assert programmed
+    assert 400 < int(programmed[1]) < 900  # 0.4 ms a page, and the SDK's work
     assert "holds 05 05 next ff id e0e7" in result  # A5 AND 0F: programming only clears bits
 
 

@@ -98,7 +98,7 @@ class Emulator:
     ) -> None:
         self.close()
 
-    # ---- The wire ----------------------------------------------------------------------------------
+    # ---- The wire --------------------------------------------------------------------------------
 
     def post(self, op: str, **arguments: Any) -> None:  # noqa: ANN401
         """Send a request without waiting for its answer (see `answer`)."""
@@ -138,7 +138,7 @@ class Emulator:
         if self._process.stdout is not None:
             self._process.stdout.close()
 
-    # ---- Running -----------------------------------------------------------------------------------
+    # ---- Running ---------------------------------------------------------------------------------
 
     def connect(self, timeout_ms: float = 1000) -> None:
         """Run until the USB host has opened the board's serial port."""
@@ -189,7 +189,7 @@ class Emulator:
         """Set or clear DTR, as a program does that opens or closes the port."""
         self.request("host_open", open=opened)
 
-    # ---- Pins --------------------------------------------------------------------------------------
+    # ---- Pins ------------------------------------------------------------------------------------
 
     def set_pin(self, gpio: int, level: int | None, at_ns: float | None = None) -> None:
         """Connect a pin to 0 or 1, or let go of it (None), now or at a time."""
@@ -225,7 +225,7 @@ class Emulator:
         """Return the stretches in which SysTick ran, for putting edges on the grid of ticks."""
         return [TickRun(**run) for run in self.request("tick_runs")["runs"]]
 
-    # ---- Measuring ---------------------------------------------------------------------------------
+    # ---- Measuring -------------------------------------------------------------------------------
 
     def measure(self, *functions: str) -> None:
         """Count the cycles of these functions from now on (see profile)."""

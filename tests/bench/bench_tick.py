@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""CPU cycles of the firmware, counted in the emulator: prints tables, can write them as a page.
+
+    .venv/bin/python tests/bench/bench_tick.py [--uf2 FILE] [--write docs/performance.md]
+
+Fails if a goal is missed.
+"""
+
+import argparse
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import measure
+from rich.console import Console
+from rich.table import Table
+
+from stepmite.emulator import PROJECT, Cycles
+
+GOAL_TICK_MEAN, GOAL_TICK_MOST, GOAL_LINE = 120, 220, 20_000
+TICK_CYCLES = 1250
+
+INTRO = """\
+# Performance
+
+Cycles of the Cortex-M0+ at 125 MHz, counted while the released UF2 runs in the emulator of
+`tests/emulator`; made by `make bench`. The emulator counts instructions by ARM's manual and the
+entry of an exception with 15 cycles, its exit with an estimated 13. It knows no misses of the flash
+cache, so code that runs from flash (everything but the tick) is slower on a board when it is cold.
+One tick lasts 1250 cycles.
+"""
+
+
+@dataclass
+class Section:
+    """A table with the sentence it needs."""
+
+    title: str
+    head: list[str]
+    rows: list[list[str]] = field(default_factory=list)
+    note: str = ""
+
+
+def whole(number: float) -> str:
+    return f"{number:,.0f}"
+
+
+def of_cycles(name: str, cycles: Cycles, goal: str = "") -> list[str]:
+    share = f"{cycles.mean / TICK_CYCLES * 100:.1f} %" if cycles.mean < TICK_CYCLES else ""
+    return [name, whole(cycles.calls), whole(cycles.mean), whole(cycles.most), share, goal]
+
+
+def tick_section(uf2: Path, missed: list[str]) -> Section:
+    section = Section("The tick", ["", "ticks", "mean", "worst", "of the CPU", "goal"])
+    rates = ", ".join(f"{rate}" for rate in measure.RATES_KHZ)
+    section.note = (
+        f"Four axes move at {rates} kHz. From the first instruction to the return; the exception's "
+        "entry and exit, 28 cycles, come on top."
+    )
+    for axes in (0, 1, 4):
+        tick = measure.tick(uf2, axes)
+        goal = f"{GOAL_TICK_MEAN} / {GOAL_TICK_MOST}" if axes == 4 else ""
+        name = "no axis moves (dwell)" if axes == 0 else f"{axes} {'axis' if axes == 1 else 'axes'}"
+        section.rows.append(of_cycles(name, tick.cycles, goal))
+        wanted = [1000 * rate for rate in measure.RATES_KHZ[:axes]]
+        if any(abs(a - b) > 50 for a, b in zip(tick.rates_hz, wanted, strict=True)):
+            missed.append(f"step rates {tick.rates_hz} instead of {wanted}")
+        if axes == 4 and (tick.cycles.mean > GOAL_TICK_MEAN or tick.cycles.most > GOAL_TICK_MOST):
+            missed.append(f"the tick takes {tick.cycles.mean:.0f}, at worst {tick.cycles.most:.0f}")
+    return section
+
+
+def planning_section(uf2: Path, missed: list[str]) -> Section:
+    section = Section("Governor and queue", ["", "calls", "mean", "worst", "", "goal"])
+    part = measure.part(uf2, 5)
+    section.note = (
+        f"The name plate of `make demo`: {part.lines} lines, and {part.seconds:g} s of its motion. "
+        "The governor runs about once a millisecond (125,000 cycles); its worst call catches up on "
+        "several segments at once."
+    )
+    cruise = measure.governor_in_cruise(uf2)
+    section.rows += [
+        of_cycles("governor, four axes at constant speed", cruise),
+        of_cycles("governor, name plate", part.governor),
+        of_cycles("governor, filling the ring at STEPPER RUN", part.first_governor),
+        of_cycles("one line of G-code, text to ring", part.line, f"{GOAL_LINE:,}"),
+    ]
+    if part.line.mean > GOAL_LINE:
+        missed.append(f"a line of G-code takes {part.line.mean:.0f} cycles")
+    return section
+
+
+def statement_section(uf2: Path) -> Section:
+    section = Section("BASIC", ["statement", "cycles", "a second"])
+    section.note = "At the prompt, in a FOR loop whose own turn is taken off."
+    for text, cycles in measure.statements(uf2):
+        section.rows.append([f"`{text}`", whole(cycles), whole(125e6 / cycles)])
+    return section
+
+
+def lateness_section(uf2: Path) -> Section:
+    section = Section(
+        "Edges against their tick", ["", "edge", "least", "median", "99 %", "99.9 %", "worst"]
+    )
+    section.note = (
+        "Nanoseconds from the tick to the change at the pin, four axes moving. The SDK masks "
+        "interrupts in its USB code, and the tick waits for that; nothing else delays it."
+    )
+    for load in ("prompt idle", "USB output without end"):
+        for row in measure.lateness(uf2, load):
+            numbers = (row.least, row.median, row.percentile_99, row.percentile_99_9, row.most)
+            section.rows.append([load, row.edge, *[whole(number) for number in numbers]])
+    return section
+
+
+def size_text(uf2: Path) -> str:
+    """The table of flash and RAM by part, as the audit prints it."""
+    script = PROJECT / "tools" / "audit" / "size.py"
+    answer = subprocess.run(
+        [sys.executable, script, uf2.with_suffix(".elf.map")], capture_output=True, text=True
+    )
+    return answer.stdout if answer.returncode == 0 else f"not available: {answer.stderr.strip()}"
+
+
+def show(console: Console, section: Section) -> None:
+    table = Table(title=section.title, title_justify="left")
+    for index, head in enumerate(section.head):
+        table.add_column(head, justify="left" if index == 0 else "right")
+    for row in section.rows:
+        table.add_row(*row)
+    console.print(table)
+    console.print(section.note, style="dim")
+
+
+def markdown(section: Section) -> str:
+    lines = [f"## {section.title}", "", section.note, ""]
+    lines.append("| " + " | ".join(section.head) + " |")
+    lines.append("| --- " + "| ---: " * (len(section.head) - 1) + "|")
+    lines += ["| " + " | ".join(row) + " |" for row in section.rows]
+    return "\n".join(lines) + "\n"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--uf2", type=Path, default=PROJECT / "build/pico/stepmite-pico.uf2")
+    parser.add_argument("--write", type=Path, help="write the tables to this Markdown file")
+    options = parser.parse_args()
+    missed: list[str] = []
+    sections = [
+        tick_section(options.uf2, missed),
+        planning_section(options.uf2, missed),
+        statement_section(options.uf2),
+        lateness_section(options.uf2),
+    ]
+    console = Console()
+    for section in sections:
+        show(console, section)
+    sizes = size_text(options.uf2)
+    console.print(sizes, markup=False, highlight=False)
+    if options.write:
+        texts = [INTRO, *[markdown(section) for section in sections]]
+        texts.append(f"## Flash and RAM\n\nThe UF2 for the Pico.\n\n{sizes.rstrip()}\n")
+        options.write.write_text("\n".join(texts), encoding="utf-8")
+    for text in missed:
+        console.print(f"goal missed: {text}", style="red")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,185 @@
+"""Measurements of the real UF2 in the emulator, each in a board of its own: nothing here prints."""
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from stepmite.emulator import PROJECT, Cycles, Emulator
+from stepmite.ticks import latencies_ns
+from stepmite.trace import Edges
+
+CYCLES_PER_US = 125
+AXES = "XYZA"
+STEP_GPIOS = (2, 4, 6, 8)
+STEPS_PER_UNIT = 100
+# Steps a second, in thousands, of the four axes: near the limit, in no simple ratio, one slow.
+RATES_KHZ = (50, 49, 37, 11)
+NAME_PLATE = PROJECT / "examples" / "nameplate.nc"
+TALK = 'DO: PRINT "some text that goes out over the line, as fast as it can": LOOP'
+
+
+@dataclass(frozen=True)
+class Tick:
+    """Cycles of the tick with a number of axes moving."""
+
+    axes: int
+    cycles: Cycles
+    rates_hz: tuple[float, ...]
+    """Steps a second, counted at the pins."""
+
+
+@dataclass(frozen=True)
+class Lateness:
+    """How long after its tick a pin changed, in nanoseconds."""
+
+    load: str
+    edge: str
+    least: float
+    median: float
+    percentile_99: float
+    percentile_99_9: float
+    most: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """The name plate: queuing its lines, then the governor over some seconds of it."""
+
+    lines: int
+    line: Cycles
+    governor: Cycles
+    first_governor: Cycles
+    """The call at STEPPER RUN, which fills the ring of segments."""
+    seconds: float
+
+
+def ready(uf2: Path, blocks: int, axes: int = 4) -> Emulator:
+    """A board at its prompt with this many axes set up and its position known."""
+    board = Emulator(uf2)
+    board.connect()
+    board.until("> ")
+    board.command(f"STEPPER INIT ,{blocks}")
+    for index, name in enumerate(AXES[:axes]):
+        step = STEP_GPIOS[index]
+        board.command(f"STEPPER AXIS {name},GP{step},GP{step + 1},,,{STEPS_PER_UNIT},30000,20000")
+    board.command("STEPPER POSITION HOME")
+    return board
+
+
+def no_faults(board: Emulator) -> None:
+    """A measurement with faults is none."""
+    faults = board.faults()
+    if faults:
+        raise RuntimeError(f"fault in the emulator: {faults[0].text}")
+
+
+def start_long_move(board: Emulator, axes: int) -> None:
+    """Get the axes going at their rates, for three seconds."""
+    board.command("STEPPER RUN")
+    lengths = [3 * 1000 * rate / STEPS_PER_UNIT for rate in RATES_KHZ[:axes]]
+    feed_per_min = math.hypot(*lengths) / 3 * 60
+    words = " ".join(f"{name}{length:g}" for name, length in zip(AXES, lengths, strict=False))
+    board.command(f"STEPPER GC G1 {words} F{feed_per_min:.3f}")
+
+
+def tick(uf2: Path, axes: int) -> Tick:
+    """The tick while `axes` axes move; with none it runs through a dwell."""
+    with ready(uf2, 64) as board:
+        if axes > 0:
+            start_long_move(board, axes)
+            board.run_ms(300)  # up to speed
+        else:
+            board.command("STEPPER RUN")
+            board.command("STEPPER GC G4 P2000")
+            board.run_ms(50)
+        board.clear_profile()
+        board.clear_edges()
+        board.run_ms(500)
+        edges = Edges.from_rows(board.edges())
+        rates = tuple(float((edges.of(gpio).level == 1).sum()) * 2 for gpio in STEP_GPIOS[:axes])
+        no_faults(board)
+        return Tick(axes, board.profile()["systick"], rates)
+
+
+def governor_in_cruise(uf2: Path) -> Cycles:
+    """A governor step with four axes at constant speed."""
+    with ready(uf2, 64) as board:
+        board.measure("hal_on_governor")
+        start_long_move(board, 4)
+        board.run_ms(300)
+        board.clear_profile()
+        board.run_ms(500)
+        no_faults(board)
+        return board.profile()["hal_on_governor"]
+
+
+def lateness(uf2: Path, load: str) -> list[Lateness]:
+    """Step edges against the grid of ticks, with four axes moving."""
+    with ready(uf2, 64) as board:
+        start_long_move(board, 4)
+        board.run_ms(300)
+        if load == "USB output without end":
+            board.send(TALK + "\r")
+            board.run_ms(20)
+        board.clear_edges()
+        board.run_ms(1000)
+        edges = Edges.from_rows(board.edges())
+        runs = board.tick_runs()
+        no_faults(board)
+    steps = edges.of(STEP_GPIOS[0])
+    rows = []
+    # The falling edges are the first thing the tick does, so they show the interrupt's own delay.
+    for name, level in (("step pin down", 0), ("step pin up", 1)):
+        mine = steps.level == level
+        late = latencies_ns(Edges(steps.time_ns[mine], steps.gpio[mine], steps.level[mine]), runs)
+        middle = [float(np.percentile(late, p)) for p in (50, 99, 99.9)]
+        rows.append(Lateness(load, name, float(late.min()), *middle, float(late.max())))
+    return rows
+
+
+def part(uf2: Path, seconds: float) -> Part:
+    """Real lines of G-code from the prompt to the queue, then their motion."""
+    lines = [line for line in NAME_PLATE.read_text().splitlines() if re.match(r"[A-Z]", line)]
+    with ready(uf2, 1024) as board:
+        board.command("STEPPER SPINDLE GP15")
+        board.measure("gcode_line", "hal_on_governor")
+        for line in lines:
+            board.command(f'STEPPER GS "{line}"')
+        line_cycles = board.profile()["gcode_line"]
+        board.clear_profile()
+        board.command("STEPPER RUN")
+        first = board.profile()["hal_on_governor"]
+        board.clear_profile()
+        board.run_ms(seconds * 1000)
+        no_faults(board)
+        return Part(len(lines), line_cycles, board.profile()["hal_on_governor"], first, seconds)
+
+
+def statement(board: Emulator, body: str, few: int, many: int) -> float:
+    """Cycles of one turn of a FOR loop: the difference of two runs, so that the prompt cancels."""
+    took = []
+    for count in (few, many):
+        start_ns = board.now_ns
+        answer = board.command(f"FOR i=1 TO {count}: {body}NEXT", timeout_ms=20_000)
+        if "rror" in answer:
+            raise RuntimeError(answer)
+        took.append(board.now_ns - start_ns)
+    return (took[1] - took[0]) / (many - few) / 1000 * CYCLES_PER_US
+
+
+def statements(uf2: Path) -> list[tuple[str, float]]:
+    """BASIC statements with their share of the interpreter's loop, the empty loop taken off."""
+    with ready(uf2, 1024) as board:
+        board.command("STEPPER GC G91 F1500")
+        board.command('a=1: b%=1: s$="text"')
+        empty = statement(board, "", 500, 1500)
+        rows = [("FOR ... NEXT, a turn", empty)]
+        for body in ("a=i", "a=i*2.5+a", "b%=b%+3", "IF a>5 THEN b%=1", 't$=s$+"x"'):
+            rows.append((body, statement(board, f"{body}: ", 500, 1500) - empty))
+        for body in ('STEPPER GS "G1 X1.2345 Y0.5678"', "STEPPER GC X.1 Y.05"):
+            rows.append((body, statement(board, f"{body}: ", 50, 300) - empty))
+        no_faults(board)
+        return rows
