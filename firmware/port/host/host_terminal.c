@@ -27,14 +27,19 @@ bool host_terminal_is_raw(void) {
     return terminal.is_raw != 0;
 }
 
-// Puts the action back that was there before (a sanitizer has one); returning repeats the fault for
-// it.
-static void on_crash(int signal_number) {
+// Puts the action back that was there before (a sanitizer has one) and leaves the rest to it: a fault
+// repeats itself on return, a signal that somebody sent has to be sent again.
+static void on_crash(int signal_number, siginfo_t *info, void *context) {
+    (void)context;
     host_terminal_restore();
     for (size_t i = 0; i < COUNT_OF_ARRAY(crash_signals); i++) {
         if (crash_signals[i] == signal_number) {
             sigaction(signal_number, &terminal.crash_actions[i], NULL);
         }
+    }
+    bool was_sent = info->si_code <= 0;
+    if (was_sent) {
+        raise(signal_number);
     }
 }
 
@@ -64,7 +69,7 @@ void host_terminal_raw(void) {
     terminal.raw = terminal.before;
     make_raw(&terminal.raw);
     for (size_t i = 0; i < COUNT_OF_ARRAY(crash_signals); i++) {
-        struct sigaction action = {.sa_handler = on_crash};
+        struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
         sigaction(crash_signals[i], &action, &terminal.crash_actions[i]);
     }
     struct sigaction stop = {.sa_handler = on_stop};
