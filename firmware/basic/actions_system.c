@@ -134,8 +134,8 @@ ACTION_BODY(memory) {
     (void)count;
     char text[80];
     size_t total = (size_t)(memory.top - memory.floor);
-    snprintf(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n", (unsigned)program_length(),
-             (unsigned)memory_free(), (unsigned)total);
+    snprintf(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n",
+             (unsigned)program_length(), (unsigned)memory_free(), (unsigned)total);
     console_print(text);
 }
 

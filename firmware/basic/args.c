@@ -62,7 +62,8 @@ static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) 
     bool is_name = token->kind == LEXER_NAME;
     bool alone = (is_name || token->kind == LEXER_NUMBER) && stands_alone(in_parentheses);
     if (alone && is_name && token->suffix == 0) {
-        if (spec->kind == BASIC_ARG_CHOICE && choices_find(spec->choices, token->text, token->length) < 0) {
+        if (spec->kind == BASIC_ARG_CHOICE &&
+            choices_find(spec->choices, token->text, token->length) < 0) {
             compile_word(false);
             return;
         }
@@ -104,8 +105,8 @@ static void compile_raw(void) {
         depth += *p == '(';
         depth -= *p == ')' && depth > 0;
         bool word_start = p == start || !lexer_is_name_part(p[-1]);
-        bool is_else = lexer_else_ends() && word_start && end - p >= 4 && lexer_same(p, 4, "ELSE") &&
-                       (end - p == 4 || !lexer_is_name_part(p[4]));
+        bool is_else = lexer_else_ends() && word_start && end - p >= 4 &&
+                       lexer_same(p, 4, "ELSE") && (end - p == 4 || !lexer_is_name_part(p[4]));
         if (depth == 0 && (*p == ':' || is_else)) {
             break;
         }
@@ -136,7 +137,8 @@ static bool list_ends(bool in_parentheses) {
     return in_parentheses ? lexer_is(')') : lexer_at_end();
 }
 
-static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count, bool in_parentheses) {
+static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count,
+                             bool in_parentheses) {
     unsigned count = 0;
     // RAW also takes an apostrophe or nothing at all, where other lists are at their end.
     bool ends = list_ends(in_parentheses) && !(spec_count == 1 && specs[0].kind == BASIC_ARG_RAW);

@@ -27,8 +27,8 @@ void args_run(unsigned row, const value_t *values, unsigned count);
 void args_evaluate(unsigned row, value_t *values, unsigned count);
 
 // Checks and converts `count` values by the specification. Error: names the argument and its range.
-void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values, unsigned count,
-                  basic_arg_t *out, size_t *out_count);
+void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values,
+                  unsigned count, basic_arg_t *out, size_t *out_count);
 
 // The limits of a number in words: "above 0 to 100000".
 void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size);

@@ -111,7 +111,8 @@ static void deliver_choice(const basic_arg_spec_t *spec, const value_t *value, b
 
 static int64_t pin_of_text(const value_t *value) {
     const char *text = value->text;
-    if (value->length < 3 || value->length > 4 || (text[0] | 0x20) != 'g' || (text[1] | 0x20) != 'p') {
+    if (value->length < 3 || value->length > 4 || (text[0] | 0x20) != 'g' ||
+        (text[1] | 0x20) != 'p') {
         return -1;
     }
     int64_t gpio = 0;
@@ -127,7 +128,8 @@ static int64_t pin_of_text(const value_t *value) {
 static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basic_arg_t *arg) {
     char shown[32];
     if (value_is_numeric(value)) {
-        bool literal_zero = value->flags & VALUE_LITERAL && value->type == VALUE_INTEGER && value->integer == 0;
+        bool literal_zero =
+            value->flags & VALUE_LITERAL && value->type == VALUE_INTEGER && value->integer == 0;
         if (literal_zero && spec->flags & BASIC_ARG_OPTIONAL) {
             arg->integer = PINS_NONE;
             return;
@@ -138,7 +140,8 @@ static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basi
         arg->integer = pin_of_text(value);
     }
     if (arg->integer < 0 || !pins_is_user((unsigned)arg->integer)) {
-        errors_fail_with(ERR_PIN_INVALID, "%s for %s", shown_value(value, shown, sizeof shown), spec->name);
+        errors_fail_with(ERR_PIN_INVALID, "%s for %s", shown_value(value, shown, sizeof shown),
+                         spec->name);
     }
     arg->number = (double)arg->integer;
 }
@@ -183,8 +186,8 @@ static size_t group_start(const basic_arg_spec_t *specs, size_t spec_count) {
     return start;
 }
 
-void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values, unsigned count,
-                  basic_arg_t *out, size_t *out_count) {
+void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values,
+                  unsigned count, basic_arg_t *out, size_t *out_count) {
     size_t start = group_start(specs, spec_count);
     size_t group = spec_count - start;
     size_t total = start;
@@ -236,7 +239,8 @@ void args_evaluate(unsigned row, value_t *values, unsigned count) {
         value_set_number(&values[0], result.number);
         break;
     case BASIC_STRING: {
-        size_t length = result.text.length < VALUE_STRING_MAX ? result.text.length : VALUE_STRING_MAX;
+        size_t length =
+            result.text.length < VALUE_STRING_MAX ? result.text.length : VALUE_STRING_MAX;
         char *copy = memory_text(length);
         memcpy(copy, result.text.text, length);
         value_set_text(&values[0], copy, length);

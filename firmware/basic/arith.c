@@ -36,7 +36,8 @@ static int64_t divide_integers(int64_t left, int64_t right, bool remainder) {
 
 // An integer power stays an integer as long as it fits.
 static void power(value_t *values) {
-    if (values[0].type == VALUE_INTEGER && values[1].type == VALUE_INTEGER && values[1].integer >= 0) {
+    if (values[0].type == VALUE_INTEGER && values[1].type == VALUE_INTEGER &&
+        values[1].integer >= 0) {
         int64_t result = 1;
         int64_t base = values[0].integer;
         uint64_t exponent = (uint64_t)values[1].integer;
@@ -67,7 +68,8 @@ static int64_t shift(code_op_t op, int64_t value, int64_t count) {
     if (count < 0 || count > 63) {
         return 0;
     }
-    return op == OP_SHIFT_LEFT ? wrapped((uint64_t)value << count) : wrapped((uint64_t)value >> count);
+    return op == OP_SHIFT_LEFT ? wrapped((uint64_t)value << count)
+                               : wrapped((uint64_t)value >> count);
 }
 
 // Operators that always work on integers.

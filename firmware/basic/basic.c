@@ -193,8 +193,7 @@ static void execute_line(void) {
 
 // ---- Face ----------------------------------------------------------------------------------------
 
-static void no_background(void) {
-}
+static void no_background(void) {}
 
 void basic_start(const basic_config_t *new_config) {
     config = new_config;
@@ -210,7 +209,8 @@ void basic_start(const basic_config_t *new_config) {
         console_print(config->banner);
     }
     size_t length;
-    err_t error = program_storage_load((char *)memory.floor, (size_t)(memory.top - memory.floor), &length);
+    err_t error =
+        program_storage_load((char *)memory.floor, (size_t)(memory.top - memory.floor), &length);
     report(error);
     if (length != 0) {
         report(program_set((const char *)memory.floor, length));

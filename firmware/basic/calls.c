@@ -120,7 +120,8 @@ void calls_enter(const symbols_routine_t *routine, unsigned count) {
     }
     set_default(&locals[0], routine->is_function ? routine->type : VALUE_INTEGER);
 
-    *frame = (vm_frame_t){vm.pc, vm.statement, vm.locals, vm.operands, scratch, vm.scratch_base, routine};
+    *frame = (vm_frame_t){vm.pc,   vm.statement,    vm.locals, vm.operands,
+                          scratch, vm.scratch_base, routine};
     vm.depth++;
     vm.locals = locals;
     vm.operands = vm.sp = locals + routine->locals;

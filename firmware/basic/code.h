@@ -54,10 +54,10 @@ typedef enum {
     OP_NOT,
     OP_INVERT,
     OP_PLUS,
-    OP_JUMP,          // p
-    OP_JUMP_FALSE,    // p
-    OP_JUMP_TRUE,     // p
-    OP_GOSUB,         // p
+    OP_JUMP,       // p
+    OP_JUMP_FALSE, // p
+    OP_JUMP_TRUE,  // p
+    OP_GOSUB,      // p
     OP_RETURN,
     OP_FOR,           // v, v hidden pair (limit, step), p behind the loop
     OP_NEXT,          // v, v hidden pair, p the loop's body

@@ -8,6 +8,7 @@
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
+#include "labels.h"
 #include "lexer.h"
 #include "memory.h"
 #include "names.h"
@@ -25,8 +26,6 @@ static struct {
     uint32_t statement;
     uint32_t last_data; // operand of the last DATA, to be told where the next one is
     uint32_t first_data;
-    uint32_t line_number_stub; // code that raises "Line number"
-    uint32_t label_stub;
     bool in_comment; // between /* and */
 } compiler;
 
@@ -54,54 +53,7 @@ void compiler_new_statement(void) {
     begin_statement();
 }
 
-// ---- Labels --------------------------------------------------------------------------------------
-
-static symbols_t *label_at_hand(void) {
-    const lexer_token_t *token = lexer_now();
-    bool is_number = token->kind == LEXER_NUMBER && token->value.type == VALUE_INTEGER;
-    if ((token->kind != LEXER_NAME && !is_number) ||
-        (!is_number && words_is_reserved(token->text, token->length))) {
-        errors_fail(ERR_SYNTAX);
-    }
-    symbols_t *label = symbols_get(SYMBOLS_LABEL, names_scope(), token->text, token->length);
-    lexer_next();
-    return label;
-}
-
-// A label met at the prompt has its place already.
-static void emit_label(symbols_t *label) {
-    if (compiler_at_prompt()) {
-        if (!label->label.defined) {
-            errors_fail(label->name[0] <= '9' ? ERR_NO_LINE_NUMBER : ERR_NO_LABEL);
-        }
-        emit_place(label->label.code);
-    } else {
-        emit_wait(&label->label.waiting);
-    }
-}
-
-void compiler_jump_to_label(int op) {
-    symbols_t *label = label_at_hand();
-    emit_op((code_op_t)op);
-    emit_label(label);
-}
-
-void compiler_label_operand(void) {
-    symbols_t *label = label_at_hand();
-    emit_op(OP_FLOAT); // RESTORE reads the place out of the first bytes of this constant
-    emit_label(label);
-    emit_place(0);
-    emit_u16(0);
-}
-
-static void define_label(const char *name, size_t length) {
-    symbols_t *label = symbols_get(SYMBOLS_LABEL, names_scope(), name, length);
-    if (label->label.defined) {
-        errors_fail_with(ERR_LABEL_TWICE, "%s", label->name);
-    }
-    label->label.defined = true;
-    label->label.code = emit_here();
-}
+// ---- Faults found while compiling ----------------------------------------------------------------
 
 static uint32_t emit_stub(err_t code) {
     uint32_t place = emit_here();
@@ -109,23 +61,6 @@ static uint32_t emit_stub(err_t code) {
     emit_op(OP_FAIL);
     emit_text(err_message(), strlen(err_message()));
     return place;
-}
-
-// A label that a SUB names may be one of the main program.
-static void resolve_label(symbols_t *label) {
-    if (label->label.waiting == 0) {
-        return;
-    }
-    const symbols_t *place = label;
-    if (!label->label.defined && label->scope != 0) {
-        place = symbols_find(SYMBOLS_LABEL, 0, label->name, label->length);
-    }
-    uint32_t target = label->name[0] <= '9' ? compiler.line_number_stub : compiler.label_stub;
-    if (place != NULL && place->label.defined) {
-        target = place->label.code;
-    }
-    emit_patch_to(label->label.waiting, target);
-    label->label.waiting = 0;
 }
 
 // ---- DATA ----------------------------------------------------------------------------------------
@@ -200,19 +135,9 @@ static void compile_one(void) {
     compiler_statement();
 }
 
-static uint32_t failed_from; // where the code taken back started
-
-// Places in code taken back wait for nothing any more; the newest are at the head of a chain.
-static void forget_waiting(symbols_t *label) {
-    while (label->label.waiting >= failed_from) {
-        label->label.waiting = code_u24(memory.base + label->label.waiting);
-    }
-}
-
 // Puts the error in the place of a statement that did not compile.
 static void emit_failure(uint32_t start) {
-    failed_from = start;
-    symbols_each_label(forget_waiting);
+    labels_forget(start);
     emit_rollback(start);
     begin_statement();
     emit_op(OP_FAIL);
@@ -255,12 +180,13 @@ static const char *compile_label(const char *text, const char *end) {
     const lexer_token_t *token = lexer_now();
     if (token->kind == LEXER_NUMBER && token->value.type == VALUE_INTEGER &&
         token->length <= LINE_NUMBER_DIGITS) {
-        define_label(token->text, token->length);
+        labels_define(token->text, token->length);
         return token->behind;
     }
-    if (token->kind == LEXER_NAME && token->suffix == 0 && token->behind < end && *token->behind == ':' &&
+    if (token->kind == LEXER_NAME && token->suffix == 0 && token->behind < end &&
+        *token->behind == ':' &&
         words_find(WORDS_STATEMENT, token->text, token->length) == WORDS_NONE) {
-        define_label(token->text, token->length);
+        labels_define(token->text, token->length);
         return token->behind + 1;
     }
     return text;
@@ -373,9 +299,9 @@ const uint8_t *compiler_program(const char *text, size_t length) {
     each_line(text, length, compile_line_of_program);
     close_all();
     emit_op(OP_END);
-    compiler.line_number_stub = emit_stub(ERR_NO_LINE_NUMBER);
-    compiler.label_stub = emit_stub(ERR_NO_LABEL);
-    symbols_each_label(resolve_label);
+    uint32_t no_line_number = emit_stub(ERR_NO_LINE_NUMBER);
+    uint32_t no_label = emit_stub(ERR_NO_LABEL);
+    labels_resolve(no_line_number, no_label);
     symbols_set_program_mode(false);
     actions_data_reset(compiler.first_data);
     return memory.base + start;
@@ -392,8 +318,8 @@ const uint8_t *compiler_line(const char *text, size_t length) {
     const char *behind = lexer_now()->behind;
     if (lexer_now()->kind == LEXER_NUMBER && lexer_now()->value.type == VALUE_INTEGER) {
         lexer_next(); // a line number is no program here: only what follows counts
-        bool operator_follows = lexer_is_word("MOD") || lexer_is_word("AND") || lexer_is_word("OR") ||
-                                lexer_is_word("XOR");
+        bool operator_follows = lexer_is_word("MOD") || lexer_is_word("AND") ||
+                                lexer_is_word("OR") || lexer_is_word("XOR");
         if (lexer_now()->kind != LEXER_NAME || operator_follows) {
             behind = text;
         }

@@ -29,12 +29,6 @@ uint32_t compiler_statement_start(void);
 // Ends the statement and starts another one, for those that jump before they compute.
 void compiler_new_statement(void);
 
-// Emits a jump (OP_JUMP, OP_GOSUB) to the label or line number at hand.
-void compiler_jump_to_label(int op);
-
-// The operand for a label whose place is not known yet, for RESTORE.
-void compiler_label_operand(void);
-
 // Remembers a DATA statement's operand; places of DATA are chained for READ.
 void compiler_link_data(void);
 

@@ -8,6 +8,7 @@
 #define INPUT_SIZE 1024u // power of two; a paste waits here while a statement runs
 #define OUTPUT_SIZE 256u
 #define CTRL_C 3
+#define TAB_WIDTH 8
 #define BLOCKED_RETRY_US 1000u
 
 // A program that never reads its input would hide Ctrl-C behind a full ring for ever.
@@ -101,7 +102,8 @@ void console_poll(void) {
     uint8_t bytes[64];
     for (;;) {
         unsigned limit = fetch_limit(watch_break);
-        size_t count = limit == 0 ? 0 : hal_console_read(bytes, limit < sizeof bytes ? limit : sizeof bytes);
+        size_t count =
+            limit == 0 ? 0 : hal_console_read(bytes, limit < sizeof bytes ? limit : sizeof bytes);
         for (size_t i = 0; i < count; i++) {
             receive(bytes[i], watch_break);
         }
@@ -153,6 +155,9 @@ void console_flush(void) {
 
 static void put(char c) {
     if (console.output_length == OUTPUT_SIZE) {
+        if (console.flushing) { // the background prints while the terminal does not read: no room
+            return;
+        }
         console_flush();
     }
     console.output[console.output_length++] = (uint8_t)c;
@@ -162,6 +167,8 @@ static void put(char c) {
         console.in_escape = true;
     } else if (c == '\r') {
         console.column = 0;
+    } else if (c == '\t') {
+        console.column += TAB_WIDTH - console.column % TAB_WIDTH;
     } else if (c == '\b') {
         console.column -= console.column > 0;
     } else if ((uint8_t)c >= ' ') {

@@ -32,7 +32,8 @@ void functions_seed(uint64_t seed);
 void functions_set_timer(double now_ms);
 
 // The rows' functions (functions_math.c, functions_string.c, functions_system.c).
-#define FUNCTIONS_DECLARE(name) void functions_##name(value_t *arguments, unsigned count, value_t *result);
+#define FUNCTIONS_DECLARE(name)                                                                    \
+    void functions_##name(value_t *arguments, unsigned count, value_t *result);
 FUNCTIONS_DECLARE(abs)
 FUNCTIONS_DECLARE(acos)
 FUNCTIONS_DECLARE(asin)

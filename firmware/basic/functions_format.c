@@ -14,7 +14,10 @@
 static int limited(int64_t value, int least, int most) {
     if (value < least || value > most) {
         errors_fail_with(ERR_ARGUMENT, "%ld is invalid (valid is %d to %d)",
-                         (long)(value > 99999 ? 99999 : value < -99999 ? -99999 : value), least, most);
+                         (long)(value > 99999    ? 99999
+                                : value < -99999 ? -99999
+                                                 : value),
+                         least, most);
     }
     return (int)value;
 }
@@ -76,7 +79,7 @@ FUNCTION(str) {
 typedef struct {
     bool left, plus, blank, zeros;
     int width, precision;
-    char letter; // g, f, e or d
+    char letter;             // g, f, e or d
     const char *start, *end; // of the specification in the format
 } specification_t;
 

@@ -33,8 +33,9 @@ FUNCTION(sgn) {
 
 // INT, FIX and CINT: `rounding` is applied to a float; an integer is what it is.
 static void to_integer(const value_t *argument, value_t *result, double (*rounding)(double)) {
-    value_set_integer(result, argument->type == VALUE_INTEGER ? argument->integer
-                                                              : value_round(rounding(argument->number)));
+    value_set_integer(result, argument->type == VALUE_INTEGER
+                                  ? argument->integer
+                                  : value_round(rounding(argument->number)));
 }
 
 FUNCTION(int) {

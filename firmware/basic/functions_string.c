@@ -14,7 +14,8 @@ static size_t in_range(const value_t *value, int64_t least, int64_t most) {
     if (value->integer < least || value->integer > most) {
         char text[32];
         number_text_integer(text, value->integer);
-        errors_fail_with(ERR_ARGUMENT, "%s is invalid (valid is %d to %d)", text, (int)least, (int)most);
+        errors_fail_with(ERR_ARGUMENT, "%s is invalid (valid is %d to %d)", text, (int)least,
+                         (int)most);
     }
     return (size_t)value->integer;
 }
@@ -44,7 +45,8 @@ FUNCTION(chr) {
 FUNCTION(left) {
     (void)count;
     size_t wanted = in_range(&arguments[1], 0, VALUE_STRING_MAX);
-    value_set_text(result, arguments->text, wanted < arguments->length ? wanted : arguments->length);
+    value_set_text(result, arguments->text,
+                   wanted < arguments->length ? wanted : arguments->length);
 }
 
 FUNCTION(right) {

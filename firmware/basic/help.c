@@ -104,10 +104,11 @@ static void print_argument(const basic_arg_spec_t *spec) {
     if (spec->flags & BASIC_ARG_DEFAULT) {
         args_format_limit(fallback, spec->fallback);
     }
-    snprintf(text, sizeof text, "  %-16s %s%s%s%s%s%s%s%s", spec->name, range, spec->unit != NULL ? " " : "",
-             spec->unit != NULL ? spec->unit : "", *fallback != '\0' ? ", default " : "", fallback,
-             is_optional(spec) && *fallback == '\0' ? ", optional" : "", spec->help != NULL ? ": " : "",
-             spec->help != NULL ? spec->help : "");
+    snprintf(text, sizeof text, "  %-16s %s%s%s%s%s%s%s%s", spec->name, range,
+             spec->unit != NULL ? " " : "", spec->unit != NULL ? spec->unit : "",
+             *fallback != '\0' ? ", default " : "", fallback,
+             is_optional(spec) && *fallback == '\0' ? ", optional" : "",
+             spec->help != NULL ? ": " : "", spec->help != NULL ? spec->help : "");
     print_line(text);
 }
 

@@ -159,7 +159,8 @@ void lexer_expect_word(const char *word) {
 }
 
 bool lexer_at_end(void) {
-    return lexer.now.kind == LEXER_END || lexer_is(':') || (lexer.else_ends && lexer_is_word("ELSE"));
+    return lexer.now.kind == LEXER_END || lexer_is(':') ||
+           (lexer.else_ends && lexer_is_word("ELSE"));
 }
 
 bool lexer_set_else_ends(bool ends) {

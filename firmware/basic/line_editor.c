@@ -218,7 +218,8 @@ static void insert(char c) {
         return;
     }
     if (!replaces) {
-        memmove(editor.line + editor.cursor + 1, editor.line + editor.cursor, editor.length - editor.cursor);
+        memmove(editor.line + editor.cursor + 1, editor.line + editor.cursor,
+                editor.length - editor.cursor);
         editor.length++;
     }
     editor.line[editor.cursor++] = c;

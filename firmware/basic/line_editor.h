@@ -9,12 +9,12 @@
 #define LINE_EDITOR_MAX 255
 
 typedef enum {
-    LINE_EDITOR_LINE,      // a line is complete
-    LINE_EDITOR_TOO_LONG,  // a line was longer than LINE_EDITOR_MAX; all of it is dropped
-    LINE_EDITOR_BREAK,     // Ctrl-C
-    LINE_EDITOR_FINISHED,  // Ctrl-Z or F1; what was typed on the line counts
+    LINE_EDITOR_LINE,         // a line is complete
+    LINE_EDITOR_TOO_LONG,     // a line was longer than LINE_EDITOR_MAX; all of it is dropped
+    LINE_EDITOR_BREAK,        // Ctrl-C
+    LINE_EDITOR_FINISHED,     // Ctrl-Z or F1; what was typed on the line counts
     LINE_EDITOR_FINISHED_RUN, // F2; likewise
-    LINE_EDITOR_END,       // no more input can come
+    LINE_EDITOR_END,          // no more input can come
 } line_editor_result_t;
 
 typedef struct {

@@ -15,7 +15,8 @@
 #include "words.h"
 
 const statements_row_t statements_table[] = {
-    {"AUTOSAVE", statements_autosave, "AUTOSAVE", "Takes a program pasted or typed, up to Ctrl-Z or F1"},
+    {"AUTOSAVE", statements_autosave, "AUTOSAVE",
+     "Takes a program pasted or typed, up to Ctrl-Z or F1"},
     {"CASE", statements_case, NULL, NULL},
     {"CONST", statements_const, "CONST name = value [, ...]", "Names a value that cannot change"},
     {"CONTINUE", statements_continue, "CONTINUE FOR|DO", "Goes on with the next turn of a loop"},
@@ -35,9 +36,11 @@ const statements_row_t statements_table[] = {
     {"GOSUB", statements_gosub, "GOSUB label", "Calls lines that end with RETURN"},
     {"GOTO", statements_goto, "GOTO label", "Goes on at a label or line number"},
     {"HELP", statements_help, "HELP [command]", "Explains a command; alone, lists them"},
-    {"IF", statements_if, "IF condition THEN ... [ELSEIF condition THEN ...] [ELSE ...] ENDIF", "Decides"},
+    {"IF", statements_if, "IF condition THEN ... [ELSEIF condition THEN ...] [ELSE ...] ENDIF",
+     "Decides"},
     {"INC", statements_inc, "INC name [, amount]", "Adds to a variable"},
-    {"INPUT", statements_input, "INPUT [\"prompt\";] name [, ...]", "Reads values from the terminal"},
+    {"INPUT", statements_input, "INPUT [\"prompt\";] name [, ...]",
+     "Reads values from the terminal"},
     {"LET", statements_let, "[LET] name = value", "Assigns"},
     {"LINE", statements_line, "LINE INPUT [prompt$,] name$", "Reads a line from the terminal"},
     {"LIST", statements_list, "LIST [ALL]", "Shows the program"},
@@ -58,7 +61,8 @@ const statements_row_t statements_table[] = {
     {"RESTORE", statements_restore, "RESTORE [label]", "READ starts over"},
     {"RETURN", statements_return, NULL, NULL},
     {"RUN", statements_run, "RUN", "Runs the program"},
-    {"SELECT", statements_select, "SELECT CASE value ... CASE a, b TO c, IS < d ... CASE ELSE ... END SELECT",
+    {"SELECT", statements_select,
+     "SELECT CASE value ... CASE a, b TO c, IS < d ... CASE ELSE ... END SELECT",
      "Decides among many"},
     {"SUB", statements_sub, "SUB name [parameters] ... END SUB", "Defines a command"},
     {"TIMER", statements_timer, "TIMER = milliseconds", "Sets the clock that TIMER reads"},

@@ -4,6 +4,7 @@
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
+#include "labels.h"
 #include "lexer.h"
 #include "names.h"
 #include "statements.h"
@@ -67,7 +68,7 @@ void statements_restore(void) {
     if (lexer_at_end()) {
         emit_action(ACTIONS_RESTORE, 0);
     } else {
-        compiler_label_operand();
+        labels_operand();
         emit_action(ACTIONS_RESTORE, 1);
     }
 }

@@ -6,6 +6,7 @@
 #include "errors.h"
 #include "expressions.h"
 #include "functions.h"
+#include "labels.h"
 #include "lexer.h"
 #include "names.h"
 #include "statements.h"
@@ -16,7 +17,7 @@
 // What THEN or ELSE leads to in a single-line IF: a line number, or one statement.
 static void compile_branch(void) {
     if (lexer_now()->kind == LEXER_NUMBER) {
-        compiler_jump_to_label(OP_JUMP);
+        labels_jump(OP_JUMP);
     } else {
         compiler_statement();
     }
@@ -103,7 +104,8 @@ void statements_endif(void) {
 // ---- FOR -----------------------------------------------------------------------------------------
 
 void statements_for(void) {
-    if (lexer_now()->kind != LEXER_NAME || words_is_reserved(lexer_now()->text, lexer_now()->length)) {
+    if (lexer_now()->kind != LEXER_NAME ||
+        words_is_reserved(lexer_now()->text, lexer_now()->length)) {
         errors_fail(ERR_SYNTAX);
     }
     uint8_t check_type;
@@ -332,11 +334,11 @@ static void compile_end_select(void) {
 // ---- Jumps ---------------------------------------------------------------------------------------
 
 void statements_goto(void) {
-    compiler_jump_to_label(OP_JUMP);
+    labels_jump(OP_JUMP);
 }
 
 void statements_gosub(void) {
-    compiler_jump_to_label(OP_GOSUB);
+    labels_jump(OP_GOSUB);
 }
 
 void statements_return(void) {
@@ -368,7 +370,7 @@ void statements_on(void) {
         emit_integer(++number);
         emit_op(OP_EQUAL);
         emit_jump(OP_JUMP_FALSE, &next);
-        compiler_jump_to_label(gosub ? OP_GOSUB : OP_JUMP);
+        labels_jump(gosub ? OP_GOSUB : OP_JUMP);
         emit_jump(OP_JUMP, &done);
         emit_patch(&next);
     } while (lexer_take(','));

@@ -36,7 +36,8 @@ static void compile_parameter(symbols_routine_t *routine) {
         errors_fail(ERR_NO_TYPE);
     }
     names_local(&name, type);
-    routine->parameter_types[routine->parameters++] = (uint8_t)(type | (is_array ? SYMBOLS_ARRAY_FLAG : 0));
+    routine->parameter_types[routine->parameters++] =
+        (uint8_t)(type | (is_array ? SYMBOLS_ARRAY_FLAG : 0));
 }
 
 static void compile_parameters(symbols_routine_t *routine) {
@@ -54,7 +55,9 @@ static void compile_parameters(symbols_routine_t *routine) {
 
 static uint8_t function_type(const lexer_token_t *name) {
     uint8_t type = lexer_suffix_type(name->suffix);
-    return type != VALUE_NONE ? type : names_default_type() != VALUE_NONE ? names_default_type() : VALUE_FLOAT;
+    return type != VALUE_NONE                   ? type
+           : names_default_type() != VALUE_NONE ? names_default_type()
+                                                : VALUE_FLOAT;
 }
 
 // FUNCTION's AS stands behind the parameters, but its name is a local from the start.

@@ -17,11 +17,11 @@ typedef enum { SYMBOLS_VARIABLE, SYMBOLS_ROUTINE, SYMBOLS_LABEL } symbols_kind_t
 
 // A SUB or FUNCTION.
 typedef struct {
-    uint32_t code;       // offset of its first statement
+    uint32_t code; // offset of its first statement
     uint8_t is_function;
-    uint8_t type;        // of a FUNCTION's value: VALUE_FLOAT, _INTEGER, _STRING
+    uint8_t type; // of a FUNCTION's value: VALUE_FLOAT, _INTEGER, _STRING
     uint8_t parameters;
-    uint8_t locals;      // places on the stack: the value, the parameters, LOCALs, loops
+    uint8_t locals; // places on the stack: the value, the parameters, LOCALs, loops
     uint8_t parameter_types[SYMBOLS_PARAMETERS_MAX]; // with SYMBOLS_ARRAY_FLAG
 } symbols_routine_t;
 
@@ -41,9 +41,9 @@ typedef struct {
     uint16_t next;  // handle of the next one in the bucket, 0 at the end
     uint16_t scope; // a label in a SUB: handle of the SUB
     uint8_t kind;
-    uint8_t type;   // the type its suffix or DIM gave it while compiling; VALUE_NONE: not said
+    uint8_t type; // the type its suffix or DIM gave it while compiling; VALUE_NONE: not said
     uint8_t length;
-    char name[];    // in capitals
+    char name[]; // in capitals
 } symbols_t;
 
 // Forgets all names.

@@ -14,9 +14,9 @@ typedef enum {
     VALUE_NONE,        // a blank argument, or a variable that does not exist yet
     VALUE_FLOAT_REF,   // data: a double elsewhere
     VALUE_INTEGER_REF, // data: an int64_t elsewhere
-    VALUE_STRING_REF,  // data: a length byte and `capacity` bytes of text; what a string variable holds
-    VALUE_ARRAY,       // data: an array_t
-    VALUE_WORD,        // text, length: a bare word written as an argument of a command
+    VALUE_STRING_REF, // data: a length byte and `capacity` bytes of text; what a string variable holds
+    VALUE_ARRAY,      // data: an array_t
+    VALUE_WORD,       // text, length: a bare word written as an argument of a command
 } value_type_t;
 
 enum {

@@ -205,8 +205,8 @@ static void declare_array(uint16_t variable, variables_array_t *shape) {
 
 // A LOCAL met again in a loop starts afresh in the memory it has.
 static bool renew_local(const value_t *slot, const variables_array_t *shape) {
-    if (slot->type == VALUE_STRING_REF && shape->dimensions == 0 && slot->capacity == shape->capacity &&
-        shape->type == VALUE_STRING) {
+    if (slot->type == VALUE_STRING_REF && shape->dimensions == 0 &&
+        slot->capacity == shape->capacity && shape->type == VALUE_STRING) {
         *(uint8_t *)slot->data = 0;
         return true;
     }

@@ -14,12 +14,12 @@
 
 typedef struct {
     uint8_t dimensions;
-    uint8_t type;     // VALUE_FLOAT, _INTEGER or _STRING
-    uint8_t base;     // lowest subscript
-    uint16_t capacity; // of a string
-    uint32_t count;   // elements
+    uint8_t type;                              // VALUE_FLOAT, _INTEGER or _STRING
+    uint8_t base;                              // lowest subscript
+    uint16_t capacity;                         // of a string
+    uint32_t count;                            // elements
     uint32_t extent[VARIABLES_DIMENSIONS_MAX]; // elements along each dimension
-    uint8_t *elements; // the first subscript runs fastest
+    uint8_t *elements;                         // the first subscript runs fastest
 } variables_array_t;
 
 static inline value_t *variables_slot(uint16_t variable) {

@@ -98,7 +98,8 @@ static bool for_begin(uint16_t variable, value_t *pair, value_t *limit_and_step)
         }
     }
     if (now.type == VALUE_INTEGER) {
-        return pair[1].integer >= 0 ? now.integer <= pair[0].integer : now.integer >= pair[0].integer;
+        return pair[1].integer >= 0 ? now.integer <= pair[0].integer
+                                    : now.integer >= pair[0].integer;
     }
     return pair[1].number >= 0 ? now.number <= pair[0].number : now.number >= pair[0].number;
 }
@@ -135,7 +136,8 @@ static inline bool for_next(uint16_t variable, const value_t *pair) {
         }
         if (slot->type == VALUE_FLOAT) {
             slot->number += pair[1].number;
-            return signbit(pair[1].number) ? slot->number >= pair->number : slot->number <= pair->number;
+            return signbit(pair[1].number) ? slot->number >= pair->number
+                                           : slot->number <= pair->number;
         }
     }
     return for_next_slowly(variable, pair);

@@ -18,8 +18,8 @@ static struct {
 } words;
 
 static const char *const reserved[] = {
-    "AND", "AS", "CASE", "ELSE", "ELSEIF", "GOSUB", "GOTO", "INV", "IS", "MOD", "NOT",
-    "OR", "STEP", "SUB", "FUNCTION", "THEN", "TO", "UNTIL", "XOR",
+    "AND", "AS", "CASE", "ELSE", "ELSEIF",   "GOSUB", "GOTO", "INV",   "IS",  "MOD",
+    "NOT", "OR", "STEP", "SUB",  "FUNCTION", "THEN",  "TO",   "UNTIL", "XOR",
 };
 
 static char upper(char c) {
@@ -59,7 +59,8 @@ static uint16_t *slot_of(words_kind_t kind, const char *text, size_t length) {
         hash = hash * 31 + (unsigned char)upper(text[i]);
     }
     hash ^= hash >> 9;
-    while (words.slots[hash % SLOTS] != 0 && !is_word(words.slots[hash % SLOTS], kind, text, length)) {
+    while (words.slots[hash % SLOTS] != 0 &&
+           !is_word(words.slots[hash % SLOTS], kind, text, length)) {
         hash++;
     }
     return &words.slots[hash % SLOTS];

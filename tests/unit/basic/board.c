@@ -38,8 +38,8 @@ static void count_break(void) {
     board.breaks++;
 }
 
-void board_start(const basic_command_t *commands, size_t command_count, const basic_function_t *functions,
-                 size_t function_count) {
+void board_start(const basic_command_t *commands, size_t command_count,
+                 const basic_function_t *functions, size_t function_count) {
     state.config = (basic_config_t){
         .arena = state.arena,
         .arena_size = sizeof state.arena,

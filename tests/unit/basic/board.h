@@ -13,8 +13,8 @@
 void board_reset(void);
 
 // Starts the language on this board with these rows.
-void board_start(const basic_command_t *commands, size_t command_count, const basic_function_t *functions,
-                 size_t function_count);
+void board_start(const basic_command_t *commands, size_t command_count,
+                 const basic_function_t *functions, size_t function_count);
 
 // Bytes the terminal sends next.
 void board_type(const char *bytes, size_t length);
@@ -31,10 +31,10 @@ const char *board_session(const char *text);
 typedef struct {
     uint64_t time_us;
     uint64_t blocked_until_us; // the terminal takes no output before
-    bool ticking;         // motion runs: the flash is busy
-    unsigned writes;      // calls of hal_console_write() that took something
-    unsigned backgrounds; // calls of the background hook
-    unsigned breaks;      // calls of on_break
+    bool ticking;              // motion runs: the flash is busy
+    unsigned writes;           // calls of hal_console_write() that took something
+    unsigned backgrounds;      // calls of the background hook
+    unsigned breaks;           // calls of on_break
     unsigned statements;
     int fail_program_after; // pages until programming the flash fails, -1: never
 } board_t;

@@ -33,8 +33,14 @@ static const basic_arg_spec_t axis_args[] = {
     {.name = "step_pin", .kind = BASIC_ARG_PIN},
     {.name = "enable_pin", .kind = BASIC_ARG_PIN, .flags = BASIC_ARG_OPTIONAL},
     {.name = "invert", .kind = BASIC_ARG_INTEGER, .flags = BASIC_ARG_DEFAULT, .min = 0, .max = 1},
-    {.name = "steps", .kind = BASIC_ARG_NUMBER, .flags = BASIC_ARG_DEFAULT | BASIC_ARG_ABOVE_MIN, .min = 0,
-     .max = 100000, .fallback = 200, .unit = "steps/mm", .help = "steps for one unit"},
+    {.name = "steps",
+     .kind = BASIC_ARG_NUMBER,
+     .flags = BASIC_ARG_DEFAULT | BASIC_ARG_ABOVE_MIN,
+     .min = 0,
+     .max = 100000,
+     .fallback = 200,
+     .unit = "steps/mm",
+     .help = "steps for one unit"},
 };
 static const basic_arg_spec_t raw_args[] = {{.name = "words", .kind = BASIC_ARG_RAW}};
 static const basic_arg_spec_t text_args[] = {{.name = "line", .kind = BASIC_ARG_TEXT}};
@@ -43,7 +49,8 @@ static const basic_arg_spec_t group_args[] = {
     {.name = "letter", .kind = BASIC_ARG_WORD, .flags = BASIC_ARG_REPEAT},
     {.name = "value", .kind = BASIC_ARG_NUMBER},
 };
-static const basic_arg_spec_t chip_args[] = {{.name = "chip", .kind = BASIC_ARG_CHOICE, .choices = "2208|2209"}};
+static const basic_arg_spec_t chip_args[] = {
+    {.name = "chip", .kind = BASIC_ARG_CHOICE, .choices = "2208|2209"}};
 static const basic_arg_spec_t free_args[] = {{.name = "any", .kind = BASIC_ARG_INTEGER}};
 
 static const basic_command_t commands[] = {
@@ -99,7 +106,8 @@ static const char *answer(const char *line) {
     char typed[600];
     snprintf(typed, sizeof typed, "%s\r", line);
     const char *shown = board_session(typed);
-    const char *start = strstr(shown, "> ") + 2 + strlen(line) + 2; // behind prompt, echo and line end
+    const char *start =
+        strstr(shown, "> ") + 2 + strlen(line) + 2; // behind prompt, echo and line end
     snprintf(text, sizeof text, "%s", start);
     char *end = strrchr(text, '>');
     *end = '\0';
@@ -154,7 +162,8 @@ static void test_missing_and_too_many(void) {
 static void test_ranges(void) {
     reject("DRIVE AXIS X,GP1,,,-5", "steps: -5 is invalid (valid is above 0 to 100000)");
     reject("DRIVE AXIS X,GP1,,,0", "steps: 0 is invalid (valid is above 0 to 100000)");
-    reject("DRIVE AXIS X,GP1,,,100000.5", "steps: 100000.5 is invalid (valid is above 0 to 100000)");
+    reject("DRIVE AXIS X,GP1,,,100000.5",
+           "steps: 100000.5 is invalid (valid is above 0 to 100000)");
     accept("DRIVE AXIS X,GP1,,,100000");
     reject("DRIVE AXIS X,GP1,,2", "invert: 2 is invalid (valid is 0 to 1)");
     reject("DRIVE AXIS X,GP1,,1.5", "invert: 1.5 is invalid (valid is 0 to 1)");
@@ -265,8 +274,10 @@ static void test_functions(void) {
 
 static void test_help(void) {
     const char *help = answer("HELP DRIVE AXIS");
-    TEST_ASSERT_NOT_NULL(strstr(help, "DRIVE AXIS axis, step_pin [, enable_pin] [, invert] [, steps]\r\n"));
-    TEST_ASSERT_NOT_NULL(strstr(help, "steps            above 0 to 100000 steps/mm, default 200: steps for one unit"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(help, "DRIVE AXIS axis, step_pin [, enable_pin] [, invert] [, steps]\r\n"));
+    TEST_ASSERT_NOT_NULL(strstr(
+        help, "steps            above 0 to 100000 steps/mm, default 200: steps for one unit"));
     TEST_ASSERT_NOT_NULL(strstr(answer("HELP"), "DRIVE GCODE"));
     TEST_ASSERT_NOT_NULL(strstr(answer("HELP drive"), "DRIVE CHIP"));
 }

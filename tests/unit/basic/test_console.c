@@ -15,7 +15,8 @@ void tearDown(void) {}
 static void test_a_pasted_line_is_echoed_in_one_write(void) {
     board.writes = 0;
     board_session("a=1234567890+1234567890\r");
-    TEST_ASSERT_LESS_OR_EQUAL_UINT(3, board.writes); // prompt and echo, nothing to print, next prompt
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(3,
+                                   board.writes); // prompt and echo, nothing to print, next prompt
 }
 
 static void test_ctrl_c_ends_a_loop_without_a_pause(void) {
@@ -55,7 +56,8 @@ static void test_a_terminal_that_does_not_read_blocks_nothing_but_the_output(voi
     TEST_ASSERT_GREATER_THAN_UINT(before + 100, board.backgrounds);
     TEST_ASSERT_EQUAL_UINT(1, board.breaks);
     TEST_ASSERT_GREATER_OR_EQUAL_UINT64(board.blocked_until_us, board.time_us);
-    TEST_ASSERT_EQUAL_STRING("> PRINT 1\r\n 1\r\n> ", board_session("\rPRINT 1\r") + strlen("> \r\n"));
+    TEST_ASSERT_EQUAL_STRING("> PRINT 1\r\n 1\r\n> ",
+                             board_session("\rPRINT 1\r") + strlen("> \r\n"));
 }
 
 static void test_a_program_that_does_not_read_its_input_can_be_stopped(void) {
@@ -90,7 +92,8 @@ static err_t notice(const basic_arg_t *args, size_t count) {
 static void test_a_notice_within_output(void) {
     static const basic_command_t rows[] = {{"WARN", NULL, 0, notice, NULL}};
     board_start(rows, 1, NULL, 0);
-    TEST_ASSERT_EQUAL_STRING("> WARN\r\nhalf a line\r\nlimit reached\r\n> ", board_session("WARN\r"));
+    TEST_ASSERT_EQUAL_STRING("> WARN\r\nhalf a line\r\nlimit reached\r\n> ",
+                             board_session("WARN\r"));
 }
 
 static void test_format_number(void) {
@@ -124,7 +127,8 @@ static void test_power_lost_while_writing_leaves_the_old_program(void) {
 static void test_no_change_while_motion_runs(void) {
     board_session(PROGRAM("PRINT 11"));
     board.ticking = true;
-    TEST_ASSERT_NOT_NULL(strstr(board_session("AUTOSAVE\r"), "Error : The program cannot be changed"));
+    TEST_ASSERT_NOT_NULL(
+        strstr(board_session("AUTOSAVE\r"), "Error : The program cannot be changed"));
     TEST_ASSERT_NOT_NULL(strstr(board_session("NEW\r"), "Error : The program cannot be changed"));
     TEST_ASSERT_NOT_NULL(strstr(board_session("RUN\r"), "\r\n 11\r\n"));
 }

@@ -85,8 +85,8 @@ static bool is_tie(double number, int decimals, const char *other) {
     char exact[1200];
     snprintf(exact, sizeof exact, "%.*e", 1100, number);
     const char *digits = strchr(exact, '.') + 1;
-    return digits[decimals] == '5' && strspn(digits + decimals + 1, "0") == (size_t)(1100 - decimals - 1) &&
-           strlen(other) > 0;
+    return digits[decimals] == '5' &&
+           strspn(digits + decimals + 1, "0") == (size_t)(1100 - decimals - 1) && strlen(other) > 0;
 }
 
 static void test_agrees_with_printf(void) {
@@ -112,7 +112,8 @@ static void test_seventeen_digits_give_the_number_back(void) {
 
 static void check_parse(const char *source, size_t used, double number) {
     value_t value;
-    TEST_ASSERT_EQUAL_size_t_MESSAGE(used, number_text_parse(source, strlen(source), &value), source);
+    TEST_ASSERT_EQUAL_size_t_MESSAGE(used, number_text_parse(source, strlen(source), &value),
+                                     source);
     double got = value.type == VALUE_INTEGER ? (double)value.integer : value.number;
     TEST_ASSERT_TRUE_MESSAGE(got == number, source);
 }
