@@ -371,9 +371,23 @@ def test_terminal_while_stopped(terminal: Terminal) -> None:
 
 
 def test_real_time_passes() -> None:
-    """At a terminal the default is real time: half a second of pause is no less."""
+    """At a terminal the default is real time: a second of pause is no less, and not several."""
     at = Terminal()
     begin = time.monotonic()
-    at.type(b'PAUSE 500:PRINT "done"\r', b"\r\ndone\r\n")
-    assert time.monotonic() - begin >= 0.5
+    at.type(b'PAUSE 1000:PRINT "done"\r', b"\r\ndone\r\n")
+    assert 1.0 <= time.monotonic() - begin < 4.0
     at.close()
+
+
+def test_motion_in_real_time_is_the_same(tmp_path: Path) -> None:
+    """The edges are those of virtual time, to the tick."""
+    source = program(tmp_path, MACHINE + MOVE.format(5) + MOVE.format(4) + WAIT)
+    pulses = []
+    for mode in ("--virtual", "--realtime"):
+        trace = tmp_path / f"{mode}.csv"
+        run(mode, "--trace", trace, source)
+        rows = edges(trace)
+        begin = next(at for at, gpio, _ in rows if gpio == 2)
+        pulses.append([(at - begin, gpio, level) for at, gpio, level in rows if at >= begin])
+    assert len(pulses[0]) > 900
+    assert pulses[0] == pulses[1]

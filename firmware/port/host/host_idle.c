@@ -93,21 +93,20 @@ static void idle_virtual(uint64_t until_ns) {
 
 // ---- Real time ----------------------------------------------------------------------------------
 
-// What virtual time should be by now. A program that was stopped or slow does not make up for all
-// of it.
-static uint64_t due_ns(void) {
+// What virtual time should be by now. It was expected to be about `expected_ns`; a program that was
+// stopped or slow does not make up for all of the difference.
+static uint64_t due_ns(uint64_t expected_ns) {
     uint64_t wall_ns = host_signals_wall_ns() - idle.wall_zero_ns;
-    uint64_t latest_ns = host_clock_now_ns() + CATCH_UP_NS;
-    if (wall_ns > latest_ns) {
-        idle.wall_zero_ns += wall_ns - latest_ns;
-        return latest_ns;
+    if (wall_ns > expected_ns && wall_ns - expected_ns > CATCH_UP_NS) {
+        idle.wall_zero_ns += wall_ns - expected_ns - CATCH_UP_NS;
+        return expected_ns + CATCH_UP_NS;
     }
     return wall_ns;
 }
 
 static void idle_realtime(uint64_t until_ns) {
     host_console_poll();
-    bool news = host_clock_run(min_ns(due_ns(), until_ns), true);
+    bool news = host_clock_run(min_ns(due_ns(host_clock_now_ns()), until_ns), true);
     if (host_console_has_news() || news || host_clock_now_ns() >= until_ns) {
         return;
     }
@@ -118,10 +117,10 @@ static void idle_realtime(uint64_t until_ns) {
         return;
     }
     uint64_t wake_ns = min_ns(until_ns, hal_tick_running() ? batch_end_ns() : event_ns);
-    uint64_t due = due_ns();
-    uint64_t sleep_ns = wake_ns > due ? wake_ns - due : 0;
-    host_console_wait(wake_ns == HOST_CLOCK_NEVER ? UINT64_MAX : sleep_ns);
-    host_clock_run(min_ns(due_ns(), until_ns), true);
+    uint64_t now_ns = due_ns(host_clock_now_ns());
+    bool for_ever = wake_ns == HOST_CLOCK_NEVER;
+    host_console_wait(for_ever ? UINT64_MAX : wake_ns - min_ns(now_ns, wake_ns));
+    host_clock_run(min_ns(due_ns(wake_ns), until_ns), true);
 }
 
 // ---- The seam -----------------------------------------------------------------------------------
@@ -144,7 +143,7 @@ void hal_idle(uint64_t until_us) {
 void hal_statement(void) {
     host_signals_check();
     if (idle.realtime) {
-        host_clock_run(due_ns(), false);
+        host_clock_run(due_ns(host_clock_now_ns()), false);
     } else {
         host_clock_run(host_clock_now_ns() + STATEMENT_NS, false);
     }
