@@ -47,7 +47,7 @@ reference: ## docs/reference.md from the firmware's tables
 	@$(call build,host,,stepmite_reference)
 	@build/host/tools/reference/stepmite_reference >docs/reference.md
 
-format: ## put our C files into the common form
+format: ## put our C and Python files into the common form
 	@tools/setup format
 	@tools/format
 
