@@ -53,10 +53,27 @@ export class Bus {
         return this.fault('execution outside memory', address);
     }
 
-    read32(address, cycles) { return this.access(address, cycles, 4, false, 0) | 0; }
+    // The SIO has the tick's pins: a shorter way for it.
+    read32(address, cycles) {
+        if (address >>> 28 !== 0xd || address & 3) return this.access(address, cycles, 4, false, 0) | 0;
+        this.sync(cycles);
+        this.S.cost = 1;
+        return this.mcu.sio.readUint32(address & 0xffffffc) | 0;
+    }
+
     read16(address, cycles) { return this.access(address, cycles, 2, false, 0) & 0xffff; }
     read8(address, cycles) { return this.access(address, cycles, 1, false, 0) & 0xff; }
-    write32(address, value, cycles) { this.access(address, cycles, 4, true, value >>> 0); }
+    write32(address, value, cycles) {
+        if (address >>> 28 !== 0xd || address & 3) {
+            this.access(address, cycles, 4, true, value >>> 0);
+            return;
+        }
+        this.sync(cycles);
+        this.S.cost = 1;
+        this.mcu.sio.writeUint32(address & 0xffffffc, value >>> 0);
+        this.refreshStop(); // an edge may raise an interrupt or wake the PIO
+    }
+
     write16(address, value, cycles) { this.access(address, cycles, 2, true, value & 0xffff); }
     write8(address, value, cycles) { this.access(address, cycles, 1, true, value & 0xff); }
 

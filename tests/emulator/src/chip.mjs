@@ -45,16 +45,20 @@ export class Chip {
         Object.assign(mcu, { sram: ram, sramView: new DataView(ram.buffer) });
         this.mcu = mcu;
         this.clock = mcu.clock;
+        const rom = mcu.bootrom.buffer;
         this.memory = {
             ram8: ram, ram16: new Uint16Array(ram.buffer), ram32: new Int32Array(ram.buffer),
             flash8: flash, flash16: mcu.flash16, flash32: new Int32Array(flash.buffer),
+            rom8: new Uint8Array(rom), rom16: new Uint16Array(rom), rom32: new Int32Array(rom),
         };
     }
 
     buildCore({ flash }, listener) {
         const { S, R, mcu, clock } = this;
         this.bus = new Bus({ S, mcu, clock, onFault: listener.onFault });
-        this.nvic = new Nvic({ S, R, bus: this.bus, advance: (cycles) => this.advance(cycles) });
+        this.nvic = new Nvic({
+            S, R, bus: this.bus, ram32: this.memory.ram32, advance: (cycles) => this.advance(cycles),
+        });
         this.systick = new SysTick({ nvic: this.nvic, clock, nanosPerCycle: () => S.nanosPerCycle });
         this.flash = new Flash({ mcu, S, clock, bytes: flash, onFault: listener.onFault });
         Object.assign(this.bus, { nvic: this.nvic, flash: this.flash });

@@ -3,7 +3,7 @@
 
 import { INSTRUCTIONS, UNDEFINED_EFFECT } from './instructions.mjs';
 
-export const RAM_SIZE = 264 * 1024;
+export const RAM_SIZE = 264 * 1024, ROM_SIZE = 16 * 1024;
 
 // Operands of a row: name, shift and mask of each letter of its pattern.
 export function operands(pattern) {
@@ -40,10 +40,10 @@ ${fields.length ? `const ${fields.join(', ')};` : ''} ${effect}${advance} contin
 }
 
 // Returns run(): executes from S.pc until S.stop cycles have gone by (S.stop below 0: at once) and returns the
-// cycles used. `memory` has the views of RAM and flash, `bus` everything else, `system` the rare instructions.
+// cycles used. `memory` has the views of RAM, flash and boot ROM, `bus` everything else, `system` the rare instructions.
 export function createExecutor({ S, R, memory, bus, system }) {
     const source = `
-const { ram8, ram16, ram32, flash8, flash16, flash32 } = memory;
+const { ram8, ram16, ram32, flash8, flash16, flash32, rom8, rom16, rom32 } = memory;
 const loadWord = (a, cyc) => {
     const o = (a - 0x20000000) >>> 0;
     return o < RAM_SIZE && (o & 3) === 0 ? ram32[o >>> 2] : bus.read32(a >>> 0, cyc);
@@ -65,6 +65,7 @@ return function run() {
         let op;
         if (o < RAM_SIZE) op = ram16[o >>> 1];
         else if (f < xip) op = flash16[f >>> 1];
+        else if ((pc >>> 0) < ROM_SIZE) op = rom16[pc >>> 1];
         else { S.pc = pc; op = bus.fetch(pc >>> 0, cyc); stop = S.stop; if (stop < 0) break; }
         switch (K[op]) {
 ${INSTRUCTIONS.map(caseText).join('\n')}
@@ -75,6 +76,6 @@ default: { ${UNDEFINED_EFFECT} }
     return cyc;
 };`;
     const BITS = Uint8Array.from({ length: 256 }, (_, i) => i.toString(2).replace(/0/g, '').length);
-    const names = ['S', 'R', 'memory', 'bus', 'system', 'K', 'BITS', 'RAM_SIZE'];
-    return new Function(...names, source)(S, R, memory, bus, system, decodeTable(), BITS, RAM_SIZE);
+    const names = ['S', 'R', 'memory', 'bus', 'system', 'K', 'BITS', 'RAM_SIZE', 'ROM_SIZE'];
+    return new Function(...names, source)(S, R, memory, bus, system, decodeTable(), BITS, RAM_SIZE, ROM_SIZE);
 }

@@ -17,16 +17,17 @@ const addWithCarry = (target, a, b) => `{ const x = ${a}, y = ${b}, sum = (x >>>
     c = sum > 0xffffffff ? 1 : 0; v = ((x ^ z) & (y ^ z)) >>> 31; nz = z; ${target} = z; }`;
 const logic = (target, value) => `nz = ${value}; ${target && `${target} = nz;`}`;
 
-const ARRAY = { 1: ['ram8', 'flash8'], 2: ['ram16', 'flash16'], 4: ['ram32', 'flash32'] };
+const ARRAY = { 1: ['ram8', 'flash8', 'rom8'], 2: ['ram16', 'flash16', 'rom16'], 4: ['ram32', 'flash32', 'rom32'] };
 const SHIFT = { 1: 0, 2: 1, 4: 2 };
 
-// RAM and flash directly, everything else over the bus, which sets S.cost and may move S.stop.
+// RAM, flash and boot ROM (floating point) directly, everything else over the bus, which sets S.cost and may move S.stop.
 const load = (size, target, address, extend = '') => {
-    const [ram, flash] = ARRAY[size], aligned = (x) => (size > 1 ? ` && (${x} & ${size - 1}) === 0` : '');
+    const [ram, flash, rom] = ARRAY[size], aligned = (x) => (size > 1 ? ` && (${x} & ${size - 1}) === 0` : '');
     return `{ const a = (${address}) | 0, o = (a - 0x20000000) >>> 0; let w;
     if (o < RAM_SIZE${aligned('o')}) { w = ${ram}[o >>> ${SHIFT[size]}]; cyc += 1; }
     else { const f = (a - 0x10000000) >>> 0;
         if (f < xip${aligned('f')}) { w = ${flash}[f >>> ${SHIFT[size]}]; cyc += 1; }
+        else if ((a >>> 0) < ROM_SIZE${aligned('a')}) { w = ${rom}[a >>> ${SHIFT[size]}]; cyc += 1; }
         else { S.pc = pc; w = bus.read${size * 8}(a >>> 0, cyc); stop = S.stop; cyc += S.cost - 1; } }
     ${target} = ${extend ? `${extend}` : 'w'}; }`;
 };

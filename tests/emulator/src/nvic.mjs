@@ -12,9 +12,9 @@ export const EXCEPTION = { HARD_FAULT: 3, SVCALL: 11, PENDSV: 14, SYSTICK: 15, I
 const THREAD_PRIORITY = 4;
 
 export class Nvic {
-    // `advance(cycles)` lets time pass outside of instructions.
-    constructor({ S, R, bus, advance }) {
-        Object.assign(this, { S, R, bus, advance, profile: null });
+    // `advance(cycles)` lets time pass outside of instructions; `ram32`: the RAM as words.
+    constructor({ S, R, bus, ram32, advance }) {
+        Object.assign(this, { S, R, bus, ram32, advance, profile: null });
         this.enabled = 0;
         this.latched = 0; // pending, bit for each interrupt
         this.lines = 0;   // levels of the interrupt lines
@@ -143,10 +143,8 @@ export class Nvic {
         this.clearTaken(number);
         const returnAddress = number === EXCEPTION.HARD_FAULT ? S.faultPc : S.pc;
         const onProcess = S.onProcessStack, align = R[13] & 4 ? 1 : 0;
-        const frame = ((R[13] - 32) & ~4) | 0;
-        R[13] = frame;
-        const words = [R[0], R[1], R[2], R[3], R[12], R[14], returnAddress & ~1, apsr(S) | 1 << 24 | align << 9 | S.ipsr];
-        words.forEach((word, i) => this.storeWord(frame + 4 * i, word));
+        R[13] = (R[13] - 32) & ~4;
+        this.pushFrame(R[13], returnAddress & ~1, apsr(S) | 1 << 24 | align << 9 | S.ipsr);
         R[14] = S.ipsr !== 0 ? 0xfffffff1 : onProcess ? 0xfffffffd : 0xfffffff9;
         selectStack(S, R, 0);
         S.processStack = 0;
@@ -175,13 +173,8 @@ export class Nvic {
         S.ipsr = 0;
         S.processStack = kind === 13 ? 1 : 0;
         selectStack(S, R, S.processStack);
-        const frame = R[13], word = (i) => this.loadWord(frame + 4 * i);
-        for (let i = 0; i < 4; i++) R[i] = word(i);
-        R[12] = word(4);
-        R[14] = word(5);
-        S.pc = word(6) & ~1;
-        const psr = word(7);
-        R[13] = (frame + 32) | (psr & 1 << 9 ? 4 : 0);
+        const psr = this.popFrame(R[13]);
+        R[13] = (R[13] + 32) | (psr & 1 << 9 ? 4 : 0);
         setApsr(S, psr);
         S.ipsr = kind === 1 ? psr & 63 : 0;
         S.event = 1;
@@ -196,7 +189,42 @@ export class Nvic {
         this.advance(EXIT_CYCLES);
     }
 
-    // The frame nearly always lies in RAM; a stack pointer gone wild is caught by the bus.
-    storeWord(address, word) { this.bus.plain(address >>> 0, true, word); }
-    loadWord(address) { return this.bus.plain(address >>> 0, false, 0); }
+    // R0 to R3, R12, LR, return address, flags. Straight into RAM, where a frame nearly always lies; a stack pointer
+    // gone wild is caught by the bus.
+    pushFrame(address, returnAddress, psr) {
+        const { R, ram32 } = this, at = this.frameInRam(address, true);
+        if (at < 0) {
+            const words = [R[0], R[1], R[2], R[3], R[12], R[14], returnAddress, psr];
+            words.forEach((word, i) => this.bus.plain((address + 4 * i) >>> 0, true, word));
+            return;
+        }
+        for (let i = 0; i < 4; i++) ram32[at + i] = R[i];
+        ram32[at + 4] = R[12];
+        ram32[at + 5] = R[14];
+        ram32[at + 6] = returnAddress;
+        ram32[at + 7] = psr;
+    }
+
+    // Restores them, the address to S.pc; returns the flags.
+    popFrame(address) {
+        const { S, R, ram32 } = this, at = this.frameInRam(address, false);
+        const word = at < 0 ? (i) => this.loadWord(address + 4 * i) : (i) => ram32[at + i];
+        for (let i = 0; i < 4; i++) R[i] = word(i);
+        R[12] = word(4);
+        R[14] = word(5);
+        S.pc = word(6) & ~1;
+        return word(7);
+    }
+
+    // Index of a frame's first word in RAM; -1: not there, or guarded.
+    frameInRam(address, write) {
+        const offset = (address - 0x20000000) >>> 0, { guardStart, guardSize } = this.S;
+        if (offset > 4 * this.ram32.length - 32) return -1;
+        if (write && guardSize > 0 && offset + 32 > guardStart && offset < guardStart + guardSize) return -1;
+        return offset >>> 2;
+    }
+
+    loadWord(address) {
+        return this.bus.plain(address >>> 0, false, 0);
+    }
 }

@@ -31,7 +31,7 @@ function generator(seed) {
 }
 
 function ours() {
-    const S = createState(), R = new Int32Array(16), ram = new Uint8Array(RAM_SIZE), flash = new Uint8Array(4);
+    const S = createState(), R = new Int32Array(16), ram = new Uint8Array(RAM_SIZE), flash = new Uint8Array(4), rom = new Uint8Array(4);
     const outside = { hit: false };
     const note = () => {
         outside.hit = true;
@@ -41,6 +41,7 @@ function ours() {
     const memory = {
         ram8: ram, ram16: new Uint16Array(ram.buffer), ram32: new Int32Array(ram.buffer),
         flash8: flash, flash16: new Uint16Array(flash.buffer), flash32: new Int32Array(flash.buffer),
+        rom8: rom, rom16: new Uint16Array(rom.buffer), rom32: new Int32Array(rom.buffer),
     };
     const run = createExecutor({ S, R, memory, bus, system: note });
     return { S, R, ram, memory, outside, run };
