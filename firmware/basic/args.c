@@ -84,39 +84,48 @@ static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) 
     expressions_compile();
 }
 
+// True if the word ELSE starts at `p`.
+static bool is_else(const char *start, const char *p, const char *end) {
+    return (*p | 0x20) == 'e' && end - p >= 4 && lexer_same(p, 4, "ELSE") &&
+           (end - p == 4 || !lexer_is_name_part(p[4])) &&
+           (p == start || !lexer_is_name_part(p[-1]));
+}
+
+// Where a raw argument ends: at a colon outside quotes, parentheses and comments.
+static const char *raw_end(const char *start, const char *end) {
+    unsigned depth = 0;
+    bool quoted = false;
+    bool else_ends = lexer_else_ends();
+    for (const char *p = start; p < end; p++) {
+        if (*p == '"') {
+            quoted = !quoted;
+        } else if (quoted) {
+            continue;
+        } else if (*p == '(') {
+            depth++;
+        } else if (*p == ')') {
+            depth -= depth > 0;
+        } else if (depth != 0) {
+            continue;
+        } else if (*p == '\'' || *p == ';') {
+            return end; // a comment takes the rest, colons and all
+        } else if (*p == ':' || (else_ends && is_else(start, p, end))) {
+            return p;
+        }
+    }
+    return end;
+}
+
 // The rest of the statement as typed.
 static void compile_raw(void) {
     const char *start = lexer_now()->text;
-    const char *end = lexer_line_end();
-    const char *p = start;
-    unsigned depth = 0;
-    bool quoted = false;
-    for (; p < end; p++) {
-        if (*p == '"') {
-            quoted = !quoted;
-        }
-        if (quoted) {
-            continue;
-        }
-        if (depth == 0 && (*p == '\'' || *p == ';')) {
-            p = end; // a comment takes the rest, colons and all
-            break;
-        }
-        depth += *p == '(';
-        depth -= *p == ')' && depth > 0;
-        bool word_start = p == start || !lexer_is_name_part(p[-1]);
-        bool is_else = lexer_else_ends() && word_start && end - p >= 4 &&
-                       lexer_same(p, 4, "ELSE") && (end - p == 4 || !lexer_is_name_part(p[4]));
-        if (depth == 0 && (*p == ':' || is_else)) {
-            break;
-        }
-    }
-    size_t length = (size_t)(p - start);
+    const char *end = raw_end(start, lexer_line_end());
+    size_t length = (size_t)(end - start);
     while (length > 0 && (start[length - 1] == ' ' || start[length - 1] == '\t')) {
         length--;
     }
     emit_string(start, length);
-    lexer_go(p);
+    lexer_go(end);
 }
 
 // ---- The list ------------------------------------------------------------------------------------
@@ -164,51 +173,56 @@ static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count,
 
 // ---- Names of several words ----------------------------------------------------------------------
 
-// How many characters of source the row's name takes at the token at hand; 0: it is another name.
-static const char *match_name(const char *name, const char *text) {
-    const char *end = lexer_line_end();
-    while (*name != '\0') {
-        size_t length = strcspn(name, " ");
-        while (text < end && (*text == ' ' || *text == '\t')) {
-            text++;
-        }
-        size_t available = (size_t)(end - text);
-        if (available < length) {
-            return NULL;
-        }
-        for (size_t i = 0; i < length; i++) {
-            char c = text[i] >= 'a' && text[i] <= 'z' ? (char)(text[i] - 0x20) : text[i];
-            char wanted = name[i] >= 'a' && name[i] <= 'z' ? (char)(name[i] - 0x20) : name[i];
-            if (c != wanted) {
-                return NULL;
-            }
-        }
-        if (available > length && lexer_is_name_part(text[length])) {
-            return NULL;
-        }
-        text += length;
-        name += length + (name[length] == ' ');
+static char upper(char c) {
+    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
+}
+
+static const char *skip_blanks(const char *text, const char *end) {
+    while (text < end && (*text == ' ' || *text == '\t')) {
+        text++;
     }
     return text;
 }
 
+// Compares the words of `name` with the source from `text` on. Returns the place behind them, NULL if
+// they are not there.
+static const char *match_words(const char *name, const char *text) {
+    const char *end = lexer_line_end();
+    for (text = skip_blanks(text, end); *name != '\0'; name++) {
+        if (*name == ' ') {
+            const char *next = skip_blanks(text, end);
+            if (next == text) {
+                return NULL;
+            }
+            text = next;
+        } else if (text < end && upper(*text) == upper(*name)) {
+            text++;
+        } else {
+            return NULL;
+        }
+    }
+    return text < end && lexer_is_name_part(*text) ? NULL : text;
+}
+
+// All rows of the chain start with the word at hand: only what is behind it has to be compared.
 void args_compile_command(int row) {
-    const char *start = lexer_now()->text;
     const char *first_name = config->commands[row].name;
+    size_t first_length = strcspn(first_name, " ");
+    const char *start = lexer_now()->behind;
     const char *behind = NULL;
     size_t longest = 0;
     int found = WORDS_NONE;
     for (; row != WORDS_NONE; row = words_next(WORDS_COMMAND, row)) {
-        const char *name = config->commands[row].name;
-        const char *end = strlen(name) > longest ? match_name(name, start) : NULL;
-        if (end != NULL) {
-            longest = strlen(name);
+        const char *rest = config->commands[row].name + first_length;
+        const char *end = *rest == '\0' ? start : match_words(rest + 1, start);
+        if (end != NULL && (found == WORDS_NONE || strlen(rest) > longest)) {
+            longest = strlen(rest);
             found = row;
             behind = end;
         }
     }
     if (found == WORDS_NONE) {
-        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)strcspn(first_name, " "), first_name);
+        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)first_length, first_name);
     }
     const basic_command_t *command = &config->commands[found];
     lexer_go(behind);

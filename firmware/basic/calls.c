@@ -20,8 +20,8 @@ static vm_frame_t *push_frame(void) {
 
 // Gives a place a string variable of its own with this text.
 static void own_string(value_t *value, const char *text, size_t length) {
-    uint8_t *bytes = memory_scratch(VALUE_STRING_MAX + 1);
-    bytes[0] = (uint8_t)length;
+    char *bytes = memory_text(VALUE_STRING_MAX + 1);
+    bytes[0] = (char)length;
     memcpy(bytes + 1, text, length);
     value->data = bytes;
     value->capacity = VALUE_STRING_MAX;

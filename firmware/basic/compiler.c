@@ -309,7 +309,7 @@ const uint8_t *compiler_program(const char *text, size_t length) {
 
 const uint8_t *compiler_line(const char *text, size_t length) {
     compiler.line = 0;
-    uint8_t *code = memory_scratch(LINE_CODE_SIZE);
+    uint8_t *code = (uint8_t *)memory_text(LINE_CODE_SIZE);
     emit_start_line(code, LINE_CODE_SIZE);
     names_start();
     blocks_start();

@@ -6,7 +6,7 @@
 #include "errors.h"
 #include "memory.h"
 
-#define RESERVE 64u // bytes of arena that code leaves for an error message
+#define RESERVE 64u // bytes kept free between code and names
 
 #define PATCHES_MAX 40
 
@@ -42,13 +42,19 @@ static void set_next(uint8_t *next) {
     }
 }
 
-void emit_byte(unsigned byte) {
+// Takes room for `size` more bytes.
+static uint8_t *reserve(size_t size) {
+    uint8_t *place = emit.next;
     const uint8_t *limit = emit.limit != NULL ? emit.limit : memory.scratch;
-    if (emit.next + RESERVE >= limit) {
+    if (place + size + RESERVE > limit) {
         errors_fail(emit.limit != NULL ? ERR_TOO_COMPLEX : ERR_PROGRAM_TOO_LONG);
     }
-    *emit.next = (uint8_t)byte;
-    set_next(emit.next + 1);
+    set_next(place + size);
+    return place;
+}
+
+void emit_byte(unsigned byte) {
+    *reserve(1) = (uint8_t)byte;
 }
 
 void emit_op(code_op_t op) {
@@ -71,16 +77,11 @@ void emit_text(const char *text, size_t length) {
         errors_fail(ERR_STRING_TOO_LONG);
     }
     emit_byte((unsigned)length);
-    for (size_t i = 0; i < length; i++) {
-        emit_byte((unsigned char)text[i]);
-    }
+    memcpy(reserve(length), text, length);
 }
 
 static void emit_eight(const void *bytes) {
-    const uint8_t *p = bytes;
-    for (int i = 0; i < 8; i++) {
-        emit_byte(p[i]);
-    }
+    memcpy(reserve(8), bytes, 8);
 }
 
 void emit_integer(int64_t integer) {

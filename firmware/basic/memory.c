@@ -65,6 +65,15 @@ void *memory_scratch(size_t size) {
     return place;
 }
 
+char *memory_heap_text(size_t size) {
+    if (size + ALIGNMENT > memory_free()) {
+        errors_fail(ERR_NO_MEMORY);
+    }
+    uint8_t *place = memory.heap;
+    memory.heap = align_up(place + size);
+    return (char *)place;
+}
+
 char *memory_text(size_t size) {
     if (size > memory_free()) {
         errors_fail(ERR_NO_MEMORY);

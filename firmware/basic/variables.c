@@ -30,7 +30,14 @@ static void *allocate(uint16_t variable, size_t size) {
 }
 
 void variables_make_string(uint16_t variable, unsigned capacity) {
-    void *bytes = allocate(variable, capacity + 1);
+    char *bytes;
+    if (is_local(variable)) {
+        bytes = memory_text(capacity + 1);
+        vm.scratch_base = memory.scratch;
+    } else {
+        bytes = memory_heap_text(capacity + 1);
+    }
+    bytes[0] = '\0';
     value_t *slot = variables_slot(variable);
     slot->data = bytes;
     slot->capacity = (uint16_t)capacity;
