@@ -160,6 +160,23 @@ def test_uart_receives(check: Emulator) -> None:
     assert "received from outside." in check.until("\n> ")
 
 
+@pytest.mark.parametrize("halves", [2, 5, 25])
+def test_pio_is_exact_to_the_cycle(check: Emulator, halves: int) -> None:
+    """3 cycles high, 5 low; a fractional divider falls on the clock grid without drifting."""
+    check.clear_edges()
+    assert "words wrong 0" in check.command(f"o{halves}")
+    edges = check.edges([HANDLER])
+    assert [level for _, _, level in edges] == [(i + 1) % 2 for i in range(len(edges))]
+    times = np.array([time for time, _, _ in edges])
+    cycles = halves / 2
+    assert len(times) == pytest.approx(2 * 200_000 / (8 * cycles * CYCLE_NS), abs=30)
+    rising = (times[::2] - times[0]) / CYCLE_NS
+    ideal = 8 * cycles * np.arange(len(rising))
+    assert np.abs(rising - ideal).max() < 1
+    high = (times[1::2] - times[::2][: len(times[1::2])]) / CYCLE_NS
+    assert np.abs(high - 3 * cycles).max() < 1
+
+
 def test_pins_pull_and_readback(check: Emulator) -> None:
     assert "input 1 output 1" in check.command("g")
     check.set_pin(INPUT, 0)

@@ -189,6 +189,10 @@ class Emulator:
         """Set or clear DTR, as a program does that opens or closes the port."""
         self.request("host_open", open=opened)
 
+    def host_baud(self, baud: int) -> None:
+        """Set the line coding; 1200 asks many boards to restart into their boot loader."""
+        self.request("line_coding", baud=baud)
+
     # ---- Pins ------------------------------------------------------------------------------------
 
     def set_pin(self, gpio: int, level: int | None, at_ns: float | None = None) -> None:

@@ -23,7 +23,7 @@ static const struct {
 } commands[] = {
     {'a', check_alu},   {'e', echo},        {'f', check_float},  {'g', pins},           {'h', fault},
     {'i', check_interrupts}, {'l', flood},  {'p', check_stack},  {'r', restart},        {'s', check_storage},
-    {'t', check_systick},    {'c', check_timing}, {'u', check_uart}, {'w', check_sleep}, {'x', check_systick_stop},
+    {'t', check_systick},    {'c', check_timing}, {'u', check_uart}, {'o', check_pio}, {'w', check_sleep}, {'x', check_systick_stop},
 };
 
 // Repeats lines of input until an empty one.

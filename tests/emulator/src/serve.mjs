@@ -43,7 +43,8 @@ export async function serve(board, { socket: path, speed }) {
         return ended && tail.endsWith('> ') && board.now - activeNanos > IDLE_NANOS;
     };
     const pace = new Pace(board, speed);
-    while (!closed && !finished()) {
+    const parent = process.ppid; // a parent that is killed leaves a half-open socket behind
+    while (!closed && !finished() && process.ppid === parent) {
         await pause(pace.aheadMs());
         if (board.chip.usb.queue.length < QUEUE_LIMIT) stream.resume();
         else stream.pause();
