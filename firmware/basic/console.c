@@ -86,7 +86,7 @@ static void receive(uint8_t byte, bool watch_break) {
 // How many bytes to fetch although the ring may be full.
 static unsigned fetch_limit(bool watch_break) {
     unsigned room = input_room();
-    if (room != 0 || !watch_break) {
+    if (room != 0 || !watch_break || !hal_console_break_is_inband()) {
         console.full_since_us = 0;
         return room;
     }

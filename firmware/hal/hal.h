@@ -103,6 +103,10 @@ void hal_pin_release(unsigned gpio);
 // Takes up to `size` received bytes; 0 if there are none.
 size_t hal_console_read(uint8_t *bytes, size_t size);
 
+// True if Ctrl-C comes in the same stream as everything else, as from a terminal, and may therefore stand
+// behind input that nobody takes. False: it comes ahead of all input.
+bool hal_console_break_is_inband(void);
+
 // Takes up to `size` bytes for sending and returns how many it took; 0 if the way is full just now.
 // A board drops output for USB while no terminal is connected.
 size_t hal_console_write(const uint8_t *bytes, size_t size);

@@ -233,3 +233,9 @@ def test_ctrl_c_stops_a_pause():
 def test_a_long_paste_waits_while_a_statement_runs():
     lines = "".join(f"a{n}={n}\r" for n in range(400))
     assert answers("PAUSE 1000\r" + lines + "PRINT a399\r")[-1] == " 399"
+
+
+def test_a_script_waits_however_long_a_statement_takes():
+    """A pipe has nothing to lose by waiting: there is no Ctrl-C behind the lines."""
+    lines = "".join(f"a%=a%+{i}\r" for i in range(1000))
+    assert answers("PAUSE 60000\r" + lines + "PRINT a%\r") == [" 499500"]

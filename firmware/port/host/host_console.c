@@ -105,6 +105,11 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
     return count;
 }
 
+// Not on a terminal: there SIGINT is Ctrl-C.
+bool hal_console_break_is_inband(void) {
+    return host_terminal_is_raw() || console.peer != NULL;
+}
+
 bool host_console_has_news(void) {
     bool news = console.changes != console.changes_seen && queue_used(&console.input) > 0;
     console.changes_seen = console.changes;

@@ -49,6 +49,10 @@ void rp2_console_on_usb_line(bool connected) {
     }
 }
 
+bool hal_console_break_is_inband(void) {
+    return true;
+}
+
 size_t hal_console_read(uint8_t *bytes, size_t size) {
     size_t count = rp2_usb_read(bytes, size);
     if (count > 0) {

@@ -99,6 +99,10 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
     return count;
 }
 
+bool hal_console_break_is_inband(void) {
+    return true;
+}
+
 size_t hal_console_write(const uint8_t *bytes, size_t size) {
     if (board.time_us < board.blocked_until_us) {
         return 0;
