@@ -68,10 +68,24 @@ void rp2_uart_start(void) {
     uart.running = true;
 }
 
+// What was printed still goes out, and a word of farewell: who sits at this port should not have to wonder.
+static void send_farewell(void) {
+    static const char text[] = "\r\nGP0 and GP1 are taken: the console goes on over USB only\r\n";
+    while (rp2_uart_write_room() < sizeof text) {
+        __wfe();
+    }
+    rp2_uart_write((const uint8_t *)text, sizeof text - 1);
+    while (ring_used(&uart.tx) > 0) {
+        __wfe();
+    }
+    uart_tx_wait_blocking(UART);
+}
+
 void rp2_uart_stop(void) {
     if (!uart.running) {
         return;
     }
+    send_farewell();
     uart.running = false;
     rp2_irq_off(UART_IRQ);
     irq_remove_handler(UART_IRQ, uart_irq);
