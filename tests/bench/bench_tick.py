@@ -78,8 +78,7 @@ def planning_section(uf2: Path, missed: list[str]) -> Section:
     part = measure.part(uf2, 5)
     section.note = (
         f"The name plate of `make demo`: {part.lines} lines, and {part.seconds:g} s of its motion. "
-        "The governor runs about once a millisecond (125,000 cycles); its worst call catches up on "
-        "several segments at once."
+        "The governor runs about once a millisecond (125,000 cycles)."
     )
     cruise = measure.governor_in_cruise(uf2)
     section.rows += [
@@ -107,7 +106,7 @@ def lateness_section(uf2: Path) -> Section:
     )
     section.note = (
         "Nanoseconds from the tick to the change at the pin, four axes moving. The SDK masks "
-        "interrupts in its USB code, and the tick waits for that; nothing else delays it."
+        "interrupts in its USB code, and the tick waits for that."
     )
     for load in ("prompt idle", "USB output without end"):
         for row in measure.lateness(uf2, load):
