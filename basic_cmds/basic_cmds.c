@@ -14,13 +14,14 @@
 #define AXIS_ARG {"axis", BASIC_ARG_CHOICE, .choices = "X|Y|Z|A", .help = "the axis"}
 #define LINEAR_AXIS_ARG {"axis", BASIC_ARG_CHOICE, .choices = "X|Y|Z", .help = "the axis"}
 #define SWITCH_ARG(arg_name, text)                                                                 \
-    { arg_name, BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1, .help = text }
+    {arg_name, BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1, .help = text}
 
 static const basic_arg_spec_t init_args[INIT_ARGS] = {
     [INIT_TOLERANCE] = {"arc_tolerance", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10,
                         .fallback = 0.05, .unit = "mm", .help = "greatest radial error of an arc"},
-    [INIT_BUFFER] = {"buffer_size", BASIC_ARG_INTEGER, DEFAULTS, .min = 1, .max = STEPPER_BLOCKS_MAX,
-                     .fallback = STEPPER_BLOCKS_DEFAULT, .help = "slots of the look-ahead queue"},
+    [INIT_BUFFER] = {"buffer_size", BASIC_ARG_INTEGER, DEFAULTS, .min = 1,
+                     .max = STEPPER_BLOCKS_MAX, .fallback = STEPPER_BLOCKS_DEFAULT,
+                     .help = "slots of the look-ahead queue"},
     [INIT_ESTOP] = {"estop_pin", BASIC_ARG_PIN, OPTIONAL,
                     .help = "emergency stop input, active low with pull-up"},
     [INIT_KEEP] = SWITCH_ARG("estop_keep_enabled", "1: drivers stay on in an emergency stop"),
@@ -30,17 +31,20 @@ static const basic_arg_spec_t axis_args[AXIS_ARGS] = {
     [AXIS_ARG_AXIS] = AXIS_ARG,
     [AXIS_ARG_STEP] = {"step_pin", BASIC_ARG_PIN, .help = "step output, a pulse of 10 us"},
     [AXIS_ARG_DIR] = {"dir_pin", BASIC_ARG_PIN, .help = "direction output, high counts up"},
-    [AXIS_ARG_ENABLE] = {"enable_pin", BASIC_ARG_PIN, OPTIONAL, .help = "driver enable, active low"},
+    [AXIS_ARG_ENABLE] = {"enable_pin", BASIC_ARG_PIN, OPTIONAL,
+                         .help = "driver enable, active low"},
     [AXIS_ARG_INVERT] = SWITCH_ARG("dir_invert", "1: direction output low counts up"),
-    [AXIS_ARG_SCALE] = {"steps_per_unit", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 100000,
-                        .fallback = 200, .unit = "steps/mm or steps/deg", .help = "scale"},
+    [AXIS_ARG_SCALE] = {"steps_per_unit", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0,
+                        .max = 100000, .fallback = 200, .unit = "steps/mm or steps/deg",
+                        .help = "scale"},
     [AXIS_ARG_VELOCITY] = {"max_vel", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10000000,
                            .fallback = 6000, .unit = "mm/min or deg/min", .help = "greatest speed"},
     [AXIS_ARG_ACCELERATION] = {"max_accel", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0,
                                .max = 1000000, .fallback = 500, .unit = "mm/s^2 or deg/s^2",
                                .help = "greatest acceleration"},
-    [AXIS_ARG_BACKOFF] = {"home_backoff_mm", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 1000,
-                          .fallback = 3, .unit = "mm", .help = "way back from the home switch"},
+    [AXIS_ARG_BACKOFF] = {"home_backoff_mm", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0,
+                          .max = 1000, .fallback = 3, .unit = "mm",
+                          .help = "way back from the home switch"},
 };
 
 static const basic_arg_spec_t limits_args[LIMITS_ARGS] = {
@@ -50,7 +54,8 @@ static const basic_arg_spec_t limits_args[LIMITS_ARGS] = {
 };
 
 static const basic_arg_spec_t spindle_args[SPINDLE_ARGS] = {
-    [SPINDLE_PIN] = {"pin", BASIC_ARG_PIN, OPTIONAL, .help = "output switched by M3 and M5, 0: none"},
+    [SPINDLE_PIN] = {"pin", BASIC_ARG_PIN, OPTIONAL,
+                     .help = "output switched by M3 and M5, 0: none"},
     [SPINDLE_INVERT] = SWITCH_ARG("invert", "1: low is on"),
 };
 

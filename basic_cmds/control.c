@@ -93,7 +93,8 @@ err_t control_gcode_words(const basic_arg_t *args, size_t count) {
     if (code->length > 0) {
         const char *end = code->text + code->length;
         char letter = (char)toupper((unsigned char)code->text[0]);
-        if ((letter != 'G' && letter != 'M') || num_parse(code->text + 1, end, false, &number) != end) {
+        if ((letter != 'G' && letter != 'M') ||
+            num_parse(code->text + 1, end, false, &number) != end) {
             return err_raise(ERR_GCODE_UNSUPPORTED, "%.*s", (int)code->length, code->text);
         }
         words[used++] = (gcode_word_t){.letter = letter, .value = number.value};

@@ -29,7 +29,8 @@ static void print_axis(axis_id_t axis) {
                  pins_name(config.dir_gpio), config.dir_invert ? " inverted" : "",
                  pins_name(config.enable_gpio));
     basic_printf("%c motion: %.9g steps/%s, max %.9g %s/min, %.9g %s/s^2\n", name,
-                 config.steps_per_unit, unit, config.max_velocity, unit, config.max_acceleration, unit);
+                 config.steps_per_unit, unit, config.max_velocity, unit, config.max_acceleration,
+                 unit);
     double min, max;
     if (stepper_axis_limits(axis, &min, &max)) {
         basic_printf("%c limits: %.3f to %.3f %s\n", name, min, max, unit);

@@ -15,7 +15,8 @@ static struct {
 } start;
 
 static void start_basic(void) {
-    snprintf(start.banner, sizeof start.banner, "StepMite %s on %s\r\n%u bytes free, HELP lists commands\r\n\r\n",
+    snprintf(start.banner, sizeof start.banner,
+             "StepMite %s on %s\r\n%u bytes free, HELP lists commands\r\n\r\n",
              hal_firmware_version(), hal_board_name(), ARENA_SIZE);
     static basic_config_t config = {
         .arena = start.arena,

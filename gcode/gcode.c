@@ -23,7 +23,14 @@ static struct {
 } gcode;
 
 // What a line asks for, besides its axis words and parameters.
-typedef enum { ACTION_NONE, ACTION_MOVE, ACTION_DWELL, ACTION_HOME, ACTION_OFFSET, ACTION_SPINDLE } action_t;
+typedef enum {
+    ACTION_NONE,
+    ACTION_MOVE,
+    ACTION_DWELL,
+    ACTION_HOME,
+    ACTION_OFFSET,
+    ACTION_SPINDLE
+} action_t;
 
 typedef struct {
     action_t action;
@@ -134,7 +141,8 @@ static err_t read_feed(line_t *line, double value) {
         return twice('F');
     }
     if (!(value > 0.0 && value <= FEED_MAX)) {
-        return err_raise(ERR_GCODE_RANGE, "F: %g is invalid (valid is above 0 to %g)", value, FEED_MAX);
+        return err_raise(ERR_GCODE_RANGE, "F: %g is invalid (valid is above 0 to %g)", value,
+                         FEED_MAX);
     }
     line->has_feed = true;
     line->modal.feed = value;
@@ -217,8 +225,8 @@ static err_t move(const line_t *line) {
     stepper_target(wanted.target);
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if ((line->axes >> axis) & 1) {
-            wanted.target[axis] =
-                line->axis[axis] + (line->modal.relative ? wanted.target[axis] : gcode.offset[axis]);
+            wanted.target[axis] = line->axis[axis] +
+                                  (line->modal.relative ? wanted.target[axis] : gcode.offset[axis]);
         }
     }
     return stepper_move(&wanted);

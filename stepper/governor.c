@@ -42,12 +42,12 @@ static struct {
     bool idle_off;
     bool drivers_on;
 
-    const block_t *block; // being executed, NULL: none
-    uint32_t dwell_left;  // ticks, of a dwell
-    uint64_t progress;    // of a move, in 2^-64 of its length
-    float speed;          // along the path now, units/s
+    const block_t *block;      // being executed, NULL: none
+    uint32_t dwell_left;       // ticks, of a dwell
+    uint64_t progress;         // of a move, in 2^-64 of its length
+    float speed;               // along the path now, units/s
     int32_t start[AXIS_COUNT]; // steps, where the block began
-    float pending_ticks;  // computed way that has no segment yet
+    float pending_ticks;       // computed way that has no segment yet
 } governor;
 
 // ---- The way along a move ------------------------------------------------------------------------
@@ -84,7 +84,8 @@ static float next_speed(float left, float dt, float exit_speed2) {
     float change = block->move.acceleration * dt;
     float top = governor.stopping ? 0.0f : block->move.speed;
     float v1 = fminf(v + change, top);
-    float root2 = change * change + 4.0f * (exit_speed2 + 2.0f * block->move.acceleration * left - change * v);
+    float root2 = change * change +
+                  4.0f * (exit_speed2 + 2.0f * block->move.acceleration * left - change * v);
     float braking = root2 > 0.0f ? 0.5f * (sqrtf(root2) - change) : 0.0f;
     v1 = fminf(v1, braking);
     return fmaxf(fmaxf(v1, v - change), 0.0f);
@@ -172,7 +173,8 @@ static void advance_move(void) {
 }
 
 static void advance_dwell(void) {
-    uint32_t ticks = governor.dwell_left < DWELL_SLICE_TICKS ? governor.dwell_left : DWELL_SLICE_TICKS;
+    uint32_t ticks =
+        governor.dwell_left < DWELL_SLICE_TICKS ? governor.dwell_left : DWELL_SLICE_TICKS;
     if (ticks > 0) {
         segment_writer_wait(ticks, 0, 0);
         governor.dwell_left -= ticks;

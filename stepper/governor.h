@@ -42,9 +42,9 @@ void governor_position(int32_t steps[AXIS_COUNT]);
 // The following may be read in any context, unlocked.
 bool governor_armed(void);
 bool governor_stopping(void);
-bool governor_working(void);          // segments are executed, or blocks wait and are allowed to start
-uint32_t governor_executed(void);     // blocks since governor_reset()
-uint32_t governor_drops(void);        // times the queue was dropped by a stop: the planner must follow
+bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
+uint32_t governor_executed(void); // blocks since governor_reset()
+uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow
 bool governor_take_estop_event(void); // a safety input has stopped the machine since the last call
 
 #endif

@@ -48,7 +48,8 @@ err_t machine_check_at_rest(void) {
 }
 
 err_t machine_check_axis(axis_id_t axis) {
-    return axes[axis].configured ? ERR_OK : err_raise(ERR_AXIS_NOT_CONFIGURED, "%s", axis_name(axis));
+    return axes[axis].configured ? ERR_OK
+                                 : err_raise(ERR_AXIS_NOT_CONFIGURED, "%s", axis_name(axis));
 }
 
 err_t machine_check_queue(void) {

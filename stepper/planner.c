@@ -28,11 +28,11 @@
 planner_ring_t blocks;
 
 static struct {
-    double commanded[AXIS_COUNT];  // end of the last move, units, also if it was too short to queue
-    double target[AXIS_COUNT];     // end of the last queued move, units
+    double commanded[AXIS_COUNT]; // end of the last move, units, also if it was too short to queue
+    double target[AXIS_COUNT];    // end of the last queued move, units
     int32_t target_steps[AXIS_COUNT];
-    float direction[AXIS_COUNT];   // of the last queued block; all 0: it was not a move
-    float speed;                   // of the last queued move
+    float direction[AXIS_COUNT]; // of the last queued block; all 0: it was not a move
+    float speed;                 // of the last queued move
     float length;
     float deviation;
 } planner;
@@ -82,8 +82,8 @@ static v2_t v2_from(float speed2) {
 
 typedef struct {
     float direction[AXIS_COUNT];
-    float length;       // in all axes
-    float feed_length;  // what the feed counts: X, Y, Z; A if it moves alone
+    float length;      // in all axes
+    float feed_length; // what the feed counts: X, Y, Z; A if it moves alone
     float speed;
     float acceleration;
 } geometry_t;

@@ -23,8 +23,8 @@ typedef struct {
             float speed;                // units/s, the most anywhere on this block
             float acceleration;         // units/s^2
             v2_t entry_cap;             // speed that the corner before it allows
-            v2_t entry;                 // planned speed at its start; only ever raised while it waits
-            v2_t gain;                  // 2 * acceleration * length
+            v2_t entry; // planned speed at its start; only ever raised while it waits
+            v2_t gain;  // 2 * acceleration * length
         } move;
         uint32_t dwell_ticks;
         struct {

@@ -18,11 +18,11 @@ typedef struct {
         uint32_t phase[2];
         uint32_t rate[2]; // at most 2^31: one step in two ticks
     } pair[2];
-    uint32_t ticks;      // >= 1
-    uint32_t pins_set;   // driven at the segment's first tick: direction, spindle, enable
+    uint32_t ticks;    // >= 1
+    uint32_t pins_set; // driven at the segment's first tick: direction, spindle, enable
     uint32_t pins_clear;
-    uint32_t end_ticks;  // ticks of all segments up to the end of this one, modulo 2^32
-    uint32_t flags;      // bit n: axis n counts down; SEGMENT_MAY_END
+    uint32_t end_ticks;              // ticks of all segments up to the end of this one, modulo 2^32
+    uint32_t flags;                  // bit n: axis n counts down; SEGMENT_MAY_END
     int32_t start_steps[AXIS_COUNT]; // motor position before the first tick
 } segment_t;
 

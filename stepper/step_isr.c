@@ -14,11 +14,11 @@ segment_ring_t segments;
 // Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to see a
 // pair that belongs together.
 static struct {
-    segment_t *volatile current;  // NULL: none
-    volatile uint32_t ticks_left; // of the current one
-    uint32_t raised;              // step pins that are high
-    uint32_t trip_mask;           // safety inputs
-    uint32_t trip_idle;           // their levels while all is well
+    segment_t *volatile current;           // NULL: none
+    volatile uint32_t ticks_left;          // of the current one
+    uint32_t raised;                       // step pins that are high
+    uint32_t trip_mask;                    // safety inputs
+    uint32_t trip_idle;                    // their levels while all is well
     uint32_t step_pins[STEP_COMBINATIONS]; // bit 3: X ... bit 0: A, as the carries are gathered
     volatile uint32_t dry_count;
     volatile bool tripped;

@@ -28,12 +28,12 @@ typedef struct {
 
 typedef struct {
     uint8_t step_gpio;
-    uint8_t dir_gpio;           // high: positive direction, unless inverted
-    uint8_t enable_gpio;        // active low; PINS_NONE: none
+    uint8_t dir_gpio;    // high: positive direction, unless inverted
+    uint8_t enable_gpio; // active low; PINS_NONE: none
     bool dir_invert;
-    double steps_per_unit;      // steps/mm or steps/degree, > 0
-    double max_velocity;        // mm/min or degrees/min, > 0
-    double max_acceleration;    // mm/s^2 or degrees/s^2, > 0
+    double steps_per_unit;   // steps/mm or steps/degree, > 0
+    double max_velocity;     // mm/min or degrees/min, > 0
+    double max_acceleration; // mm/s^2 or degrees/s^2, > 0
     double home_backoff_mm;
 } stepper_axis_t;
 
@@ -89,8 +89,8 @@ err_t stepper_set_home(void);
 
 typedef struct {
     double target[AXIS_COUNT]; // machine coordinates; axes that should not move: stepper_target()
-    double feed;               // units/min along X, Y, Z (A alone: degrees/min), > 0; ignored if rapid
-    bool rapid;                // as fast as the axes allow
+    double feed; // units/min along X, Y, Z (A alone: degrees/min), > 0; ignored if rapid
+    bool rapid;  // as fast as the axes allow
 } stepper_move_t;
 
 // A straight line. Further errors: position unknown, an axis that should move is not configured,
@@ -113,8 +113,9 @@ typedef struct {
     bool initialized, armed, moving, stopping, position_known, spindle_on;
     stepper_idle_t idle;
     uint32_t blocks, blocks_free;
-    uint32_t executed;  // queue entries carried out since INIT
-    uint32_t underruns; // times the tick ran dry at speed since INIT; anything but 0 is a fault of ours
+    uint32_t executed; // queue entries carried out since INIT
+    uint32_t
+        underruns; // times the tick ran dry at speed since INIT; anything but 0 is a fault of ours
     double junction_deviation_mm, arc_tolerance_mm;
     uint8_t estop_gpio, spindle_gpio;
     bool estop_keeps_enabled, spindle_invert;

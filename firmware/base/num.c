@@ -59,9 +59,9 @@ static double parse_slowly(const char *text, const char *end) {
 
 const char *num_parse(const char *text, const char *end, bool allow_exponent, num_t *out) {
     uint64_t mantissa = 0;
-    int digits = 0;     // significant ones gathered in the mantissa
-    int dropped = 0;    // significant ones that no longer fit
-    int decimals = 0;   // digits behind the point, gathered or not
+    int digits = 0;   // significant ones gathered in the mantissa
+    int dropped = 0;  // significant ones that no longer fit
+    int decimals = 0; // digits behind the point, gathered or not
     bool any = false;
     bool point = false;
     const char *p = text;
@@ -92,7 +92,8 @@ const char *num_parse(const char *text, const char *end, bool allow_exponent, nu
     out->is_integer = !point && p == after_digits && dropped == 0 && mantissa <= INT64_MAX;
     out->integer = out->is_integer ? (int64_t)mantissa : 0;
     int power = exponent - decimals;
-    if (dropped == 0 && mantissa < EXACT_MANTISSA_MAX && power >= -EXACT_POWER_MAX && power <= EXACT_POWER_MAX) {
+    if (dropped == 0 && mantissa < EXACT_MANTISSA_MAX && power >= -EXACT_POWER_MAX &&
+        power <= EXACT_POWER_MAX) {
         double whole = (double)mantissa;
         out->value = power < 0 ? whole / exact_powers[-power] : whole * exact_powers[power];
     } else {

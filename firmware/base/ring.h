@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 typedef struct {
-    uint32_t size;             // slots in use by this ring, >= 1; changed only while both sides are still
+    uint32_t size; // slots in use by this ring, >= 1; changed only while both sides are still
     volatile uint32_t written; // slots ever published; writer
     volatile uint32_t read;    // slots ever released; reader
     uint32_t put_slot;         // slot number of `written`; writer

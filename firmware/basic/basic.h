@@ -32,22 +32,23 @@ typedef struct {
 
 // How an argument is written, and which field of basic_arg_t it fills.
 typedef enum {
-    BASIC_ARG_NUMBER,  // numeric expression                                    -> number
+    BASIC_ARG_NUMBER, // numeric expression                                    -> number
     BASIC_ARG_INTEGER, // numeric expression, rounded half away from zero       -> integer (and number)
     BASIC_ARG_TEXT,    // string expression                                     -> text
-    BASIC_ARG_CHOICE,  // one of the words in `choices`: bare, or a string
-                       // expression; a number where the words are numbers      -> integer (its index), text
-    BASIC_ARG_WORD,    // a bare word, or a string expression                   -> text
-    BASIC_ARG_PIN,     // GPn, "GPn", or a number, which is a GPIO number. With
-                       // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
-    BASIC_ARG_RAW,     // the rest of the statement as typed, comment included; ends at a colon outside
-                       // quotes, parentheses and comments                      -> text
+    BASIC_ARG_CHOICE, // one of the words in `choices`: bare, or a string
+    // expression; a number where the words are numbers      -> integer (its index), text
+    BASIC_ARG_WORD, // a bare word, or a string expression                   -> text
+    BASIC_ARG_PIN,  // GPn, "GPn", or a number, which is a GPIO number. With
+    // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
+    BASIC_ARG_RAW, // the rest of the statement as typed, comment included; ends at a colon outside
+                   // quotes, parentheses and comments                      -> text
 } basic_arg_kind_t;
 
 enum {
     BASIC_ARG_OPTIONAL = 1 << 0, // may be left out or left blank
     BASIC_ARG_DEFAULT = 1 << 1,  // if left out, `fallback` is delivered and `given` stays false
-    BASIC_ARG_REPEAT = 1 << 2,   // this and the following arguments repeat as a group, 0 or more times
+    BASIC_ARG_REPEAT = 1
+        << 2, // this and the following arguments repeat as a group, 0 or more times
     BASIC_ARG_ABOVE_MIN = 1 << 3 // the minimum itself is not allowed
 };
 
@@ -56,8 +57,8 @@ typedef struct {
     const char *name; // as in the reference, e.g. "steps_per_unit"
     basic_arg_kind_t kind;
     unsigned flags;
-    double min, max; // NUMBER and INTEGER; both 0: no limits
-    double fallback; // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
+    double min, max;     // NUMBER and INTEGER; both 0: no limits
+    double fallback;     // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
     const char *unit;    // "mm", "mm/s^2"; NULL: none
     const char *choices; // CHOICE: words with a bar between, e.g. "X|Y|Z|A"
     const char *help;    // a short sentence without a full stop
@@ -108,9 +109,10 @@ typedef struct {
     size_t command_count;
     const basic_function_t *functions;
     size_t function_count;
-    void (*background)(void); // called at each statement and whenever the interpreter waits; NULL: none
-    void (*on_break)(void);   // called once when the user pressed Ctrl-C; NULL: none
-    const char *banner;       // printed by basic_start(), lines end with \r\n
+    void (*background)(
+        void); // called at each statement and whenever the interpreter waits; NULL: none
+    void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
+    const char *banner;     // printed by basic_start(), lines end with \r\n
 } basic_config_t;
 
 // Takes the configuration (which must stay valid), clears everything and prints the banner.

@@ -121,7 +121,7 @@ size_t hal_console_write(const uint8_t *bytes, size_t size);
 #define HAL_STORAGE_PAGE 256u    // unit of program
 
 void hal_storage_read(uint32_t offset, void *bytes, size_t size);
-bool hal_storage_erase(uint32_t offset);                          // one sector
-bool hal_storage_program(uint32_t offset, const void *page);      // one page
+bool hal_storage_erase(uint32_t offset);                     // one sector
+bool hal_storage_program(uint32_t offset, const void *page); // one page
 
 #endif

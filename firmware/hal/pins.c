@@ -14,8 +14,8 @@ static struct {
 
 // Index is the GPIO; Raspberry Pi Pico datasheet, pinout.
 static const uint8_t board_numbers[PINS_COUNT] = {
-    1,  2,  4,  5,  6,  7,  9,  10, 11, 12, 14, 15, 16, 17, 19, 20,
-    21, 22, 24, 25, 26, 27, 29, 0,  0,  0,  31, 32, 34, 0,
+    1,  2,  4,  5,  6,  7,  9,  10, 11, 12, 14, 15, 16, 17, 19,
+    20, 21, 22, 24, 25, 26, 27, 29, 0,  0,  0,  31, 32, 34, 0,
 };
 
 bool pins_is_user(unsigned gpio) {

@@ -8,7 +8,7 @@
 
 #include "base/base.h"
 
-#define PINS_COUNT 30  // GP0..GP29
+#define PINS_COUNT 30   // GP0..GP29
 #define PINS_NONE 0xFFu // no pin assigned
 
 // True for a GPIO a user may have: on the header, or GP25 (the board's LED).

@@ -1,4 +1,4 @@
-"""Stops and disturbances on the emulated board: steps counted at the pins against what the machine says."""
+"""Stops and disturbances on the emulated board: edges counted against what the machine says."""
 
 import random
 import re

@@ -223,7 +223,8 @@ static bool is_out_of_patience(void) {
 }
 
 static bool is_at_prompt(void) {
-    return peer.output_length > 0 && peer.quiet > QUIET_POLLS && memcmp(peer.tail, "\r\n> ", 4) == 0;
+    return peer.output_length > 0 && peer.quiet > QUIET_POLLS &&
+           memcmp(peer.tail, "\r\n> ", 4) == 0;
 }
 
 static void drain(void) {
@@ -335,6 +336,6 @@ void fuzz_console_session(void) {
     atexit(on_exit_check);
     host_console_attach(&console_peer);
     start_waiting(STEP_WAIT); // for the banner and the first prompt
-    optind = 1; // the driver has used getopt() already
+    optind = 1;               // the driver has used getopt() already
     fuzz_main_entry(2, arguments);
 }

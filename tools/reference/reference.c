@@ -6,8 +6,9 @@
 #include "basic_cmds/basic_cmds.h"
 
 static const char *const kinds[] = {
-    [BASIC_ARG_NUMBER] = "number",   [BASIC_ARG_INTEGER] = "whole number", [BASIC_ARG_TEXT] = "string",
-    [BASIC_ARG_CHOICE] = "word",     [BASIC_ARG_WORD] = "word",            [BASIC_ARG_PIN] = "pin",
+    [BASIC_ARG_NUMBER] = "number",    [BASIC_ARG_INTEGER] = "whole number",
+    [BASIC_ARG_TEXT] = "string",      [BASIC_ARG_CHOICE] = "word",
+    [BASIC_ARG_WORD] = "word",        [BASIC_ARG_PIN] = "pin",
     [BASIC_ARG_RAW] = "rest of line",
 };
 
@@ -90,9 +91,12 @@ static void print_function(const basic_function_t *function) {
 
 int main(void) {
     printf("# Command reference\n\n"
-           "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in brackets may be\n"
-           "left out, in the middle by leaving the place between two commas blank. A pin is `GP2`, `\"GP2\"` or a GPIO\n"
-           "number; where a pin may be left out, 0 means none. The [user guide](user-guide.md) shows how the commands\n"
+           "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
+           "brackets may be\n"
+           "left out, in the middle by leaving the place between two commas blank. A pin is `GP2`, "
+           "`\"GP2\"` or a GPIO\n"
+           "number; where a pin may be left out, 0 means none. The [user guide](user-guide.md) "
+           "shows how the commands\n"
            "work together.\n\n");
     for (size_t i = 0; i < basic_cmds_command_count; i++) {
         print_command(&basic_cmds_commands[i]);

@@ -6,25 +6,26 @@
 
 #include "check.h"
 
-static const uint32_t values[] = {0, 1, 2, 31, 32, 33, 64, 255, 256, 0x7ffffffe, 0x7fffffff, 0x80000000, 0x80000001,
-                                  0xfffffffe, 0xffffffff, 0x12345678};
+static const uint32_t values[] = {
+    0,   1,          2,          31,         32,         33,         64,         255,
+    256, 0x7ffffffe, 0x7fffffff, 0x80000000, 0x80000001, 0xfffffffe, 0xffffffff, 0x12345678};
 
 typedef struct {
     uint32_t result;
     uint32_t flags; // NZCV in bits 31..28
 } outcome_t;
 
-#define RUN(name, instruction)                                                                                         \
-    static outcome_t name(uint32_t a, uint32_t b, uint32_t carry) {                                                    \
-        outcome_t out;                                                                                                 \
-        __asm volatile("lsrs %[c], %[c], #1\n" instruction " %[a], %[a], %[b]\n"                                       \
-                       "mrs %[f], apsr\n"                                                                              \
-                       : [a] "+l"(a), [f] "=l"(out.flags), [c] "+l"(carry)                                             \
-                       : [b] "l"(b)                                                                                    \
-                       : "cc");                                                                                        \
-        out.result = a;                                                                                                \
-        out.flags &= 0xf0000000;                                                                                       \
-        return out;                                                                                                    \
+#define RUN(name, instruction)                                                                     \
+    static outcome_t name(uint32_t a, uint32_t b, uint32_t carry) {                                \
+        outcome_t out;                                                                             \
+        __asm volatile("lsrs %[c], %[c], #1\n" instruction " %[a], %[a], %[b]\n"                   \
+                       "mrs %[f], apsr\n"                                                          \
+                       : [a] "+l"(a), [f] "=l"(out.flags), [c] "+l"(carry)                         \
+                       : [b] "l"(b)                                                                \
+                       : "cc");                                                                    \
+        out.result = a;                                                                            \
+        out.flags &= 0xf0000000;                                                                   \
+        return out;                                                                                \
     }
 
 RUN(run_adcs, "adcs")
@@ -42,7 +43,8 @@ static outcome_t want_add(uint32_t a, uint32_t b, uint32_t carry) {
     uint64_t sum = (uint64_t)a + b + carry;
     int64_t signed_sum = (int64_t)(int32_t)a + (int32_t)b + carry;
     uint32_t result = (uint32_t)sum;
-    return (outcome_t){result, flags_of(result, (uint32_t)(sum >> 32), signed_sum != (int32_t)result)};
+    return (outcome_t){result,
+                       flags_of(result, (uint32_t)(sum >> 32), signed_sum != (int32_t)result)};
 }
 
 static outcome_t want_subtract(uint32_t a, uint32_t b, uint32_t carry) {
@@ -101,10 +103,12 @@ void check_alu(int argument) {
                     outcome_t is = instructions[i].run(values[a], values[b], carry);
                     outcome_t want = instructions[i].want(values[a], values[b], carry);
                     tried++;
-                    wrong += is.result != want.result || ((is.flags ^ want.flags) & instructions[i].flags) != 0;
+                    wrong += is.result != want.result ||
+                             ((is.flags ^ want.flags) & instructions[i].flags) != 0;
                 }
             }
         }
-        printf("%s tried %lu wrong %lu\n", instructions[i].name, (unsigned long)tried, (unsigned long)wrong);
+        printf("%s tried %lu wrong %lu\n", instructions[i].name, (unsigned long)tried,
+               (unsigned long)wrong);
     }
 }

@@ -12,7 +12,8 @@
 
 // High for 3 cycles, low for 5: set pins, 1 [2]; set pins, 0 [4].
 static void square_wave(float divider) {
-    uint16_t code[] = {pio_encode_set(pio_pins, 1) | pio_encode_delay(2), pio_encode_set(pio_pins, 0) | pio_encode_delay(4)};
+    uint16_t code[] = {pio_encode_set(pio_pins, 1) | pio_encode_delay(2),
+                       pio_encode_set(pio_pins, 0) | pio_encode_delay(4)};
     pio_program_t program = {.instructions = code, .length = 2, .origin = 0};
     uint offset = (uint)pio_add_program(pio0, &program);
     pio_sm_config config = pio_get_default_sm_config();
@@ -30,7 +31,8 @@ static void square_wave(float divider) {
 
 // pull block; mov isr, ~osr; push: each word comes back inverted.
 static void through_the_fifos(void) {
-    uint16_t code[] = {pio_encode_pull(false, true), pio_encode_mov_not(pio_isr, pio_osr), pio_encode_push(false, true)};
+    uint16_t code[] = {pio_encode_pull(false, true), pio_encode_mov_not(pio_isr, pio_osr),
+                       pio_encode_push(false, true)};
     pio_program_t program = {.instructions = code, .length = 3, .origin = 0};
     uint offset = (uint)pio_add_program(pio0, &program);
     pio_sm_config config = pio_get_default_sm_config();

@@ -114,7 +114,8 @@ void check_sleep(int argument) {
     restore_interrupts(saved);
     NVIC(0xE100) = enabled;
     for (unsigned i = 0; i < step_count; i++) {
-        printf("%s %lu us alarms %lu\n", steps[i].what, (unsigned long)steps[i].us, (unsigned long)steps[i].alarms);
+        printf("%s %lu us alarms %lu\n", steps[i].what, (unsigned long)steps[i].us,
+               (unsigned long)steps[i].alarms);
     }
     printf("alarms %lu\n", (unsigned long)alarms);
 }

@@ -91,12 +91,14 @@ void check_stack(int argument) {
         irq_set_enabled(IRQ, true);
     }
     switch_stacks(process_stack + 512);
-    bool on_process = thread_sp > (uint32_t)process_stack && thread_sp <= (uint32_t)(process_stack + 512);
+    bool on_process =
+        thread_sp > (uint32_t)process_stack && thread_sp <= (uint32_t)(process_stack + 512);
     printf("thread process %d control %lu\n", on_process, (unsigned long)thread_control);
-    printf("handler main %d control %lu lr %08lx\n", on_main_stack(handler_sp), (unsigned long)handler_control,
-           (unsigned long)handler_lr);
+    printf("handler main %d control %lu lr %08lx\n", on_main_stack(handler_sp),
+           (unsigned long)handler_control, (unsigned long)handler_lr);
     irq_set_pending(IRQ);
     __dsb();
     __isb();
-    printf("from main lr %08lx main %d\n", (unsigned long)handler_lr, on_main_stack(stack_pointer()));
+    printf("from main lr %08lx main %d\n", (unsigned long)handler_lr,
+           on_main_stack(stack_pointer()));
 }

@@ -51,16 +51,18 @@ void check_storage(int kind) {
     if (kind == 0) {
         uint64_t start_us = time_us_64();
         erase();
-        printf("erased %02x in %lu us\n", *flash_at(OFFSET), (unsigned long)(time_us_64() - start_us));
+        printf("erased %02x in %lu us\n", *flash_at(OFFSET),
+               (unsigned long)(time_us_64() - start_us));
         memset(page, 0xA5, sizeof page);
         start_us = time_us_64();
         program(page);
-        printf("programmed %02x in %lu us\n", *flash_at(OFFSET), (unsigned long)(time_us_64() - start_us));
+        printf("programmed %02x in %lu us\n", *flash_at(OFFSET),
+               (unsigned long)(time_us_64() - start_us));
         memset(page, 0x0F, sizeof page);
         program(page);
     }
     uint8_t id[FLASH_UNIQUE_ID_SIZE_BYTES];
     flash_get_unique_id(id);
-    printf("holds %02x %02x next %02x id %02x%02x\n", *flash_at(OFFSET), *flash_at(OFFSET + 255), *flash_at(OFFSET + 256),
-           id[0], id[7]);
+    printf("holds %02x %02x next %02x id %02x%02x\n", *flash_at(OFFSET), *flash_at(OFFSET + 255),
+           *flash_at(OFFSET + 256), id[0], id[7]);
 }

@@ -11,15 +11,15 @@
 #include "check.h"
 
 // Cycles of the instructions between two readings of SysTick, the second reading (2) taken off.
-#define COUNT(name, setup, ...)                                                                                        \
-    static uint32_t __not_in_flash_func(name)(void) {                                                                  \
-        uint32_t first, second, work[4] = {0};                                                                         \
-        volatile uint32_t *counter = &systick_hw->cvr;                                                                 \
-        __asm volatile(".align 2\n" setup "ldr %[a], [%[t]]\n" __VA_ARGS__ "\nldr %[b], [%[t]]\n"                      \
-                       : [a] "=&l"(first), [b] "=&l"(second)                                                           \
-                       : [t] "l"(counter), [m] "l"(work)                                                               \
-                       : "r0", "r1", "lr", "cc", "memory");                                                            \
-        return ((first - second) & 0xffffff) - 2;                                                                      \
+#define COUNT(name, setup, ...)                                                                    \
+    static uint32_t __not_in_flash_func(name)(void) {                                              \
+        uint32_t first, second, work[4] = {0};                                                     \
+        volatile uint32_t *counter = &systick_hw->cvr;                                             \
+        __asm volatile(".align 2\n" setup "ldr %[a], [%[t]]\n" __VA_ARGS__ "\nldr %[b], [%[t]]\n"  \
+                       : [a] "=&l"(first), [b] "=&l"(second)                                       \
+                       : [t] "l"(counter), [m] "l"(work)                                           \
+                       : "r0", "r1", "lr", "cc", "memory");                                        \
+        return ((first - second) & 0xffffff) - 2;                                                  \
     }
 
 COUNT(count_nops, "", "nop\nnop\nnop\nnop\n")
@@ -40,10 +40,19 @@ static const struct {
     const char *name;
     uint32_t (*count)(void);
 } counts[] = {
-    {"nops", count_nops},         {"loads", count_loads},         {"stores", count_stores}, {"multiply", count_multiply},
-    {"branch", count_branch},     {"not_taken", count_not_taken}, {"taken", count_taken},   {"loop", count_loop},
-    {"push_pop", count_push_pop}, {"call", count_call},           {"call_stack", count_call_stack},
-    {"barriers", count_barriers}, {"sio", count_sio},
+    {"nops", count_nops},
+    {"loads", count_loads},
+    {"stores", count_stores},
+    {"multiply", count_multiply},
+    {"branch", count_branch},
+    {"not_taken", count_not_taken},
+    {"taken", count_taken},
+    {"loop", count_loop},
+    {"push_pop", count_push_pop},
+    {"call", count_call},
+    {"call_stack", count_call_stack},
+    {"barriers", count_barriers},
+    {"sio", count_sio},
 };
 
 static volatile uint64_t fired_us;

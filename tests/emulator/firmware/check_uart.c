@@ -18,7 +18,8 @@ void check_uart(int argument) {
     }
     uint64_t queued_us = time_us_64();
     uart_tx_wait_blocking(uart0);
-    printf("queued %lu us sent %lu us\n", (unsigned long)(queued_us - start_us), (unsigned long)(time_us_64() - start_us));
+    printf("queued %lu us sent %lu us\n", (unsigned long)(queued_us - start_us),
+           (unsigned long)(time_us_64() - start_us));
     sleep_ms(5);
     printf("received ");
     while (uart_is_readable(uart0)) {

@@ -21,9 +21,14 @@ static const struct {
     char letter;
     void (*run)(int argument);
 } commands[] = {
-    {'a', check_alu},   {'e', echo},        {'f', check_float},  {'g', pins},           {'h', fault},
-    {'i', check_interrupts}, {'l', flood},  {'p', check_stack},  {'r', restart},        {'s', check_storage},
-    {'t', check_systick},    {'c', check_timing}, {'u', check_uart}, {'o', check_pio}, {'w', check_sleep}, {'x', check_systick_stop},
+    {'a', check_alu},     {'e', echo},
+    {'f', check_float},   {'g', pins},
+    {'h', fault},         {'i', check_interrupts},
+    {'l', flood},         {'p', check_stack},
+    {'r', restart},       {'s', check_storage},
+    {'t', check_systick}, {'c', check_timing},
+    {'u', check_uart},    {'o', check_pio},
+    {'w', check_sleep},   {'x', check_systick_stop},
 };
 
 // Repeats lines of input until an empty one.
@@ -82,7 +87,8 @@ static void fault(int kind) {
 
 static void restart(int argument) {
     if (argument == 0) {
-        printf("scratch %08lx watchdog %d\n", (unsigned long)watchdog_hw->scratch[1], watchdog_caused_reboot());
+        printf("scratch %08lx watchdog %d\n", (unsigned long)watchdog_hw->scratch[1],
+               watchdog_caused_reboot());
         return;
     }
     watchdog_hw->scratch[1] = (uint32_t)argument;

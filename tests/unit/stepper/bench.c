@@ -111,7 +111,8 @@ void bench_move(double x, double y, double z, double a, double feed) {
 double bench_finish(double limit_s) {
     uint64_t begin_us = hal_time_us();
     while (stepper_active() > 0) {
-        TEST_ASSERT_TRUE_MESSAGE((double)(hal_time_us() - begin_us) < limit_s * 1e6, "motion does not end");
+        TEST_ASSERT_TRUE_MESSAGE((double)(hal_time_us() - begin_us) < limit_s * 1e6,
+                                 "motion does not end");
         bench_wait_us(100);
     }
     return (double)(hal_time_us() - begin_us) * 1e-6;

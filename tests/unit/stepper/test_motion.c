@@ -89,7 +89,8 @@ static void test_circle_of_chords_keeps_its_feed(void) {
 }
 
 static void test_step_rate_is_limited_to_every_second_tick(void) {
-    const stepper_axis_t fast = {.steps_per_unit = 400, .max_velocity = 12000, .max_acceleration = 5000};
+    const stepper_axis_t fast = {
+        .steps_per_unit = 400, .max_velocity = 12000, .max_acceleration = 5000};
     bench_start_with(&fast, 32, false); // asks for 80 kHz
     bench_move(100, 0, 0, 0, 12000);
     // 100 mm at 125 mm/s with two ramps of 25 ms: 0.825 s.
@@ -112,7 +113,7 @@ static void test_extreme_scales_and_accelerations(void) {
             };
             bench_start_with(&config, 32, false);
             double step = 1 / scales[s];
-            bench_move(step, 0, 0, 0, 0);         // one step
+            bench_move(step, 0, 0, 0, 0);           // one step
             bench_move(step, -300 * step, 0, 0, 0); // back and forth
             bench_move(step, 0, 0, 0, 0);
             bench_move(101 * step, 100.4 * step, 7 * step, -100 * step, 0);

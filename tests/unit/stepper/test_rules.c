@@ -42,7 +42,8 @@ static void test_nothing_works_before_init(void) {
 
 static void test_init_twice(void) {
     TEST_ASSERT_EQUAL(ERR_OK, stepper_init(&plain));
-    check_refused(ERR_STEPPER_ALREADY_INITIALIZED, stepper_init(&plain), "Stepper already initialized");
+    check_refused(ERR_STEPPER_ALREADY_INITIALIZED, stepper_init(&plain),
+                  "Stepper already initialized");
     TEST_ASSERT_EQUAL(ERR_OK, stepper_close());
     TEST_ASSERT_EQUAL(ERR_OK, stepper_init(&plain));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_close());
@@ -172,7 +173,8 @@ static void test_motion_forbids_configuration_but_not_questions(void) {
     check_refused(ERR_STEPPER_BUSY, stepper_spindle(16, false), message);
     check_refused(ERR_STEPPER_BUSY, stepper_set_home(), message);
     check_refused(ERR_STEPPER_BUSY, stepper_set_position(AXIS_X, 3), message);
-    check_refused(ERR_CLEAR_WHILE_ACTIVE, stepper_clear(), "Cannot clear buffer while motion active");
+    check_refused(ERR_CLEAR_WHILE_ACTIVE, stepper_clear(),
+                  "Cannot clear buffer while motion active");
     TEST_ASSERT_EQUAL_INT(1, stepper_active());
     bench_finish(10);
     bench_check_positions();
