@@ -23,7 +23,18 @@ static struct {
     uint32_t end_ticks;
 } writer;
 
+// Segments that were dropped may have been about to turn an axis round, so the pins have the last word.
+static void follow_dir_pins(void) {
+    uint32_t pins = hal_pins_read();
+    writer.negative = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        uint32_t low = (pins & writer.dir[axis]) != 0 ? 0 : 1u << axis;
+        writer.negative |= writer.dir[axis] != 0 ? low ^ (writer.dir_inverted & 1u << axis) : 0;
+    }
+}
+
 void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
+    follow_dir_pins();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         writer.position[axis] = steps[axis] * STEP_ONE;
     }

@@ -5,7 +5,7 @@
 
 #include "stepper/segment.h"
 
-// Stands at `steps`.
+// Stands at `steps`, with the direction pins as they are; the ring is empty.
 void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 
 // Takes these direction pins and sets them all to up. At rest only. `inverted`: bit n set if the

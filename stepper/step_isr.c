@@ -7,6 +7,8 @@
 // the middle of a segment follows from the ticks that are done (step_isr_position).
 #include "stepper/step_isr.h"
 
+#include <string.h>
+
 segment_ring_t segments;
 
 #define STEP_COMBINATIONS (1u << AXIS_COUNT)
@@ -129,12 +131,16 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
         uint32_t left = isr.ticks_left;
         uint32_t taken = segments.ring.read;
         RING_BARRIER();
+        bool waiting = segment == NULL && ring_used(&segments.ring) > 0;
         if (segment != NULL) {
             position_in(segment, left, steps);
+        } else if (waiting) { // the first tick is still to come
+            const segment_t *first = &segments.slots[segments.ring.take_slot];
+            memcpy(steps, first->start_steps, sizeof first->start_steps);
         }
         RING_BARRIER();
         if (segment == isr.current && left == isr.ticks_left && taken == segments.ring.read) {
-            return segment != NULL;
+            return segment != NULL || waiting;
         }
     }
 }

@@ -16,7 +16,7 @@ void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]);
 // Contexts: main with the governor locked, governor.
 void step_isr_abort(void);
 
-// Where the motors are; false if no segment is being executed, then the end of the last one holds.
+// Where the motors are; false if the ring is empty, then the end of the last segment holds.
 // Contexts: main with the governor locked, governor.
 bool step_isr_position(int32_t steps[AXIS_COUNT]);
 

@@ -85,6 +85,28 @@ static void test_emergency_stop_ends_all_steps(void) {
     bench_end();
 }
 
+// Segments that were dropped could have turned an axis, or be the first of a motion.
+static void test_emergency_stop_at_any_tick_leaves_the_machine_in_order(void) {
+    for (unsigned ticks = 0; ticks < 2400; ticks += ticks < 40 ? 1 : 37) {
+        bench_start();
+        bench_move(0.2, 0.1, 0, 0, 6000);
+        bench_move(-0.2, 0.3, -0.01, 3, 6000);
+        bench_move(0.2, 0.1, 0, 0, 6000);
+        bench_wait_us(ticks * 10 + 5);
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
+        bench_check_positions();
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_run(STEPPER_IDLE_HOLD));
+        const int64_t x = bench.motors[AXIS_X].position_steps;
+        const int64_t y = bench.motors[AXIS_Y].position_steps;
+        bench_move(-1, 1, 0, 0, 6000);
+        bench_finish(1);
+        TEST_ASSERT_EQUAL_INT64(x - 80, bench.motors[AXIS_X].position_steps);
+        TEST_ASSERT_EQUAL_INT64(y + 80, bench.motors[AXIS_Y].position_steps);
+        bench_end();
+    }
+}
+
 static void test_emergency_stop_at_rest_keeps_the_position(void) {
     bench_start();
     TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
@@ -146,6 +168,7 @@ int main(void) {
     RUN_TEST(test_stop_from_full_speed_takes_the_braking_distance);
     RUN_TEST(test_stop_in_a_dwell_and_at_rest);
     RUN_TEST(test_emergency_stop_ends_all_steps);
+    RUN_TEST(test_emergency_stop_at_any_tick_leaves_the_machine_in_order);
     RUN_TEST(test_emergency_stop_at_rest_keeps_the_position);
     RUN_TEST(test_estop_pin_disables_the_drivers);
     RUN_TEST(test_estop_pin_keeps_the_drivers_if_wanted);
