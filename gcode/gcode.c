@@ -7,7 +7,9 @@
 
 #include "gcode/gcode_lexer.h"
 
-#define FEED_MAX 1.0e9 // units/min; keeps arithmetic in range, the axes limit long before
+// units/min; slower than any machine, and faster than the axes will allow.
+#define FEED_MIN 0.001
+#define FEED_MAX 1.0e9
 
 typedef enum { MOTION_NONE, MOTION_RAPID, MOTION_FEED } motion_t;
 
@@ -140,8 +142,8 @@ static err_t read_feed(line_t *line, double value) {
     if (line->has_feed) {
         return twice('F');
     }
-    if (!(value > 0.0 && value <= FEED_MAX)) {
-        return err_raise(ERR_GCODE_RANGE, "F: %g is invalid (valid is above 0 to %g)", value,
+    if (!(value >= FEED_MIN && value <= FEED_MAX)) {
+        return err_raise(ERR_GCODE_RANGE, "F: %g is invalid (valid is %g to %g)", value, FEED_MIN,
                          FEED_MAX);
     }
     line->has_feed = true;

@@ -31,9 +31,9 @@ typedef struct {
     uint8_t dir_gpio;    // high: positive direction, unless inverted
     uint8_t enable_gpio; // active low; PINS_NONE: none
     bool dir_invert;
-    double steps_per_unit;   // steps/mm or steps/degree, > 0
-    double max_velocity;     // mm/min or degrees/min, > 0
-    double max_acceleration; // mm/s^2 or degrees/s^2, > 0
+    double steps_per_unit;   // steps/mm or steps/degree, 0.001..100000
+    double max_velocity;     // mm/min or degrees/min, 0.001..1e7
+    double max_acceleration; // mm/s^2 or degrees/s^2, 0.01..1e6
     double home_backoff_mm;
 } stepper_axis_t;
 

@@ -273,12 +273,13 @@ static void declare_routine(void) {
         return;
     }
     const lexer_token_t *name = lexer_now();
-    symbols_t *symbol = symbols_get(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name));
-    if (symbol->routine == NULL) {
-        symbol->routine = symbols_memory(sizeof *symbol->routine);
-        symbol->routine->is_function = is_function;
-        symbol->routine->type = lexer_suffix_type(name->suffix);
+    if (symbols_find(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name)) != NULL) {
+        return; // the second one is an error when its line is compiled
     }
+    symbols_routine_t *routine = symbols_memory(sizeof *routine); // first: a name never lacks it
+    routine->is_function = is_function;
+    routine->type = lexer_suffix_type(name->suffix);
+    symbols_get(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name))->routine = routine;
 }
 
 // A line that cannot even be cut into words is reported when it is compiled.

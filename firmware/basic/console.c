@@ -137,6 +137,15 @@ bool console_lost_input(void) {
     return lost;
 }
 
+void console_send(void) {
+    if (console.output_length == 0 || console.flushing) {
+        return;
+    }
+    size_t took = hal_console_write(console.output, console.output_length);
+    console.output_length -= (unsigned)took;
+    memmove(console.output, console.output + took, console.output_length);
+}
+
 void console_flush(void) {
     unsigned sent = 0;
     console.flushing = true;

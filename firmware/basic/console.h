@@ -46,6 +46,9 @@ void console_fresh_line(void);
 // Column of the next character, from 0.
 unsigned console_column(void);
 
+// Sends what can go at once.
+void console_send(void);
+
 // Sends what has been gathered. A host that does not read is waited for; Ctrl-C ends the wait and
 // the output not sent yet is dropped.
 void console_flush(void);

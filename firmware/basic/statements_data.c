@@ -43,6 +43,9 @@ void statements_inc(void) {
 
 // The items stay text; READ cuts them.
 void statements_data(void) {
+    if (compiler_at_prompt()) {
+        errors_fail(ERR_INVALID_HERE);
+    }
     const char *start = lexer_now()->text;
     if (lexer_now()->kind == LEXER_STRING) {
         start--;

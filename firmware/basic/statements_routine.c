@@ -73,8 +73,11 @@ static void compile_routine(bool is_function) {
     if (compiler_at_prompt() || name.kind != LEXER_NAME) {
         errors_fail(compiler_at_prompt() ? ERR_INVALID_HERE : ERR_SYNTAX);
     }
-    symbols_t *symbol = symbols_get(SYMBOLS_ROUTINE, 0, name.text, lexer_bare_length(&name));
-    if (symbol->routine == NULL || symbol->routine->code != 0) {
+    symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, name.text, lexer_bare_length(&name));
+    if (symbol == NULL) { // not at the start of a line, where it would have been declared
+        errors_fail(ERR_INVALID_HERE);
+    }
+    if (symbol->routine->code != 0) {
         errors_fail_with(ERR_SUB_TWICE, "%s", symbol->name);
     }
     symbol->routine->type = is_function ? function_type(&name) : VALUE_INTEGER;

@@ -6,6 +6,8 @@
 #include "errors.h"
 #include "symbols.h"
 
+#define UPPER_MAX 131067 // highest bound of an array's dimension; memory ends long before
+
 static bool is_local(uint16_t variable) {
     return (variable & CODE_LOCAL_FLAG) != 0;
 }
@@ -184,8 +186,11 @@ static uint32_t measure(variables_array_t *array, const value_t *bounds, unsigne
     uint32_t count = 1;
     for (unsigned i = 0; i < dimensions; i++) {
         int64_t upper = value_to_integer(&bounds[i]);
+        if (upper < 1 || upper > UPPER_MAX) {
+            errors_fail(ERR_DIMENSIONS);
+        }
         int64_t extent = upper - vm.base + 1;
-        if (upper < 1 || extent > INT16_MAX * 4 || count > UINT32_MAX / (uint32_t)extent) {
+        if (count > UINT32_MAX / (uint32_t)extent) {
             errors_fail(ERR_DIMENSIONS);
         }
         array->extent[i] = (uint32_t)extent;

@@ -36,6 +36,7 @@ unsigned vm_line(void) {
 // The rare part of a statement's start.
 static void attend(void) {
     poll_countdown = POLL_EVERY;
+    console_send(); // or what was printed would wait for the end of a long computation
     console_poll();
     if (console_break_pending()) {
         errors_break();

@@ -239,3 +239,34 @@ def test_a_script_waits_however_long_a_statement_takes():
     """A pipe has nothing to lose by waiting: there is no Ctrl-C behind the lines."""
     lines = "".join(f"a%=a%+{i}\r" for i in range(1000))
     assert answers("PAUSE 60000\r" + lines + "PRINT a%\r") == [" 499500"]
+
+
+def test_a_routine_behind_a_colon_is_refused_where_it_stands():
+    program = (
+        "AUTOSAVE\rPRINT 1:SUB x\rEND SUB\rFUNCTION f():f=1:END FUNCTION:FUNCTION g()\r" + CTRL_Z
+    )
+    out = answers(program + "\rRUN\rx\r? g()\rPRINT 5\r")
+    assert "Error : Invalid here" in out
+    assert out[-1] == " 5"
+
+
+def test_data_at_the_prompt_is_refused():
+    out = answers("DATA 1\rREAD a\rDATA 2\rPRINT 5\r")
+    assert out == ["Error : Invalid here", "Error : No DATA to read", "Error : Invalid here", " 5"]
+
+
+def test_bounds_far_beyond_memory():
+    typed = "DIM INTEGER a(3,9223372036854775807)\rDIM b(131068)\rDIM c(99999,99999)\rPRINT 5\r"
+    assert answers(typed) == ["Error : Dimensions"] * 3 + [" 5"]
+
+
+def test_output_is_seen_while_a_program_computes():
+    """A program that never pauses does not keep what it printed to itself."""
+    with subprocess.Popen(
+        [PROGRAM, "--virtual"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0
+    ) as program:
+        program.stdin.write(b'a$="be": PRINT a$; "gun": DO: LOOP\r')
+        seen = b""
+        while b"begun" not in seen:  # the test's time limit ends a wait in vain
+            seen += program.stdout.read(100)
+        program.kill()

@@ -104,8 +104,9 @@ static void test_refusals_name_their_reason(void) {
     check_refused("G1X10Y0X5 F100", "X given twice");
     check_refused("G1 X F100", "Missing value for X");
     check_refused("G1 X--1", "Missing value for X");
-    check_refused("G1 X1 F0", "F: 0 is invalid (valid is above 0 to 1e+09)");
-    check_refused("G1 X1 F-5", "F: -5 is invalid (valid is above 0 to 1e+09)");
+    check_refused("G1 X1 F0", "F: 0 is invalid (valid is 0.001 to 1e+09)");
+    check_refused("G1 X1 F0.0009", "F: 0.0009 is invalid (valid is 0.001 to 1e+09)");
+    check_refused("G1 X1 F-5", "F: -5 is invalid (valid is 0.001 to 1e+09)");
     check_refused("G1 X1 E5 F100", "Unknown parameter E");
     check_refused("G2 X1", "Unsupported code G2");
     check_refused("G92.1", "Unsupported code G92.1");
