@@ -89,7 +89,7 @@ err_t stepper_set_home(void);
 
 typedef struct {
     double target[AXIS_COUNT]; // machine coordinates; axes that should not move: stepper_target()
-    double feed; // units/min along X, Y, Z (A alone: degrees/min), > 0; ignored if rapid
+    double feed; // units/min along X, Y, Z (A alone: degrees/min), 0.001..1e9; not if rapid
     bool rapid;  // as fast as the axes allow
 } stepper_move_t;
 
