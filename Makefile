@@ -27,10 +27,10 @@ test: ## every test; under 15 minutes on two cores
 	@$(foreach preset,host asan pico pico2,$(call build,$(preset),-DSTEPMITE_TESTS=ON,all) &&) true
 	@$(PYTHON) -m pytest -q -n $(JOBS) --timeout 600 tests
 
-bench: ## cycles of tick, governor and G-code line, counted in the emulator
+bench: ## cycles of tick, governor and G-code line in the emulator; writes docs/performance.md
 	@tools/setup bench
 	@$(call build,pico,,stepmite-pico)
-	@$(PYTHON) tests/bench/bench_tick.py
+	@$(PYTHON) tests/bench/bench_tick.py --write docs/performance.md
 
 demo: ## the firmware in the emulator cuts a real part; draws build/demo/demo.png
 	@tools/setup demo
