@@ -1,6 +1,8 @@
 // Observers of the pins and the simulated axis. Context: any.
 #include "simulate.h"
 
+#include "host_pads.h"
+
 static struct {
     struct {
         simulate_observer_t call;
@@ -44,4 +46,24 @@ static void axis_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t
 
 bool simulate_axis_attach(simulate_axis_t *axis) {
     return simulate_observe(axis_edges, axis);
+}
+
+static bool is_pressed(const simulate_switch_t *limit) {
+    int64_t at = limit->axis->position_steps;
+    bool pressed = at >= limit->from_steps && at <= limit->to_steps;
+    return limit->fault == SIMULATE_FAULT_NEVER_OPENS ||
+           (pressed && limit->fault != SIMULATE_FAULT_NEVER_CLOSES);
+}
+
+static void switch_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels) {
+    const simulate_switch_t *limit = state;
+    (void)time_ns;
+    if ((changed & levels & pins_mask(limit->axis->step_gpio)) != 0) {
+        host_pads_drive(limit->gpio, is_pressed(limit) == limit->pressed_level);
+    }
+}
+
+bool simulate_switch_attach(simulate_switch_t *limit) {
+    host_pads_drive(limit->gpio, is_pressed(limit) == limit->pressed_level);
+    return simulate_observe(switch_edges, limit);
 }

@@ -22,7 +22,9 @@ void simulate_edges(uint64_t time_ns, uint32_t changed, uint32_t levels);
 
 typedef enum {
     SIMULATE_FAULT_NONE,
-    SIMULATE_FAULT_MISS_STEPS, // every `fault_every`-th step pulse does not move the axis
+    SIMULATE_FAULT_MISS_STEPS,   // every `fault_every`-th step pulse does not move the axis
+    SIMULATE_FAULT_NEVER_CLOSES, // a switch with a broken wire
+    SIMULATE_FAULT_NEVER_OPENS,  // a switch that is stuck
 } simulate_fault_t;
 
 // A driver and its motor: a rising edge of `step` moves it one step, up while `dir` is high. Fill
@@ -41,5 +43,18 @@ typedef struct {
 
 // Starts counting at the position in `axis`, which must stay valid. False if there is no room.
 bool simulate_axis_attach(simulate_axis_t *axis);
+
+// A limit switch that the axis presses from one position to another. Fill in, then attach.
+typedef struct {
+    const simulate_axis_t *axis;
+    unsigned gpio;
+    int64_t from_steps, to_steps; // pressed here, ends included
+    bool pressed_level;           // of the pin
+    simulate_fault_t fault;       // may be changed at any time
+} simulate_switch_t;
+
+// Drives the pin from now on; the axis has to be attached before. The switch must stay valid. False if
+// there is no room.
+bool simulate_switch_attach(simulate_switch_t *limit);
 
 #endif
