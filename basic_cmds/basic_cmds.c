@@ -69,6 +69,12 @@ static const basic_arg_spec_t run_args[] = {
      .help = "when idle 0: drivers stay on, 1: drivers off"},
 };
 
+static const basic_arg_spec_t override_args[] = {
+    {"what", BASIC_ARG_CHOICE, .choices = "FEED|RAPID", .help = "G1 feeds, or G0 moves"},
+    {"percent", BASIC_ARG_INTEGER, .min = STEPPER_OVERRIDE_MIN, .max = STEPPER_OVERRIDE_MAX,
+     .unit = "%", .help = "of the programmed speed; RAPID up to 100"},
+};
+
 static const basic_arg_spec_t position_args[] = {
     AXIS_ARG,
     {"position", BASIC_ARG_NUMBER, .unit = "mm or deg", .help = "machine position where it stands"},
@@ -105,6 +111,11 @@ const basic_command_t basic_cmds_commands[] = {
     {"STEPPER CLEAR", .run = control_clear, .help = "Empties the queue while nothing moves"},
     {"STEPPER STOP", .run = control_stop,
      .help = "Brakes to a standstill and empties the queue; the position stays exact"},
+    {"STEPPER HOLD", .run = control_hold,
+     .help = "Feed hold: brakes to a standstill and keeps the queue"},
+    {"STEPPER RESUME", .run = control_resume, .help = "Goes on after STEPPER HOLD"},
+    {"STEPPER OVERRIDE", ARGS(override_args), control_override,
+     "Makes all feeds or all rapid moves slower or faster, at once"},
     {"STEPPER ESTOP", .run = control_estop, .help = "Stops at once, drivers and spindle off"},
     {"STEPPER CLOSE", .run = control_close, .help = "Stops motion and gives all pins back"},
     {"STEPPER POSITION HOME", .run = control_position_home,

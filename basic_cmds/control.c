@@ -44,6 +44,32 @@ err_t control_stop(const basic_arg_t *args, size_t count) {
     return ERR_OK;
 }
 
+err_t control_hold(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    return stepper_hold(true);
+}
+
+err_t control_resume(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    return stepper_hold(false);
+}
+
+err_t control_override(const basic_arg_t *args, size_t count) {
+    (void)count;
+    bool rapid = args[0].integer != 0;
+    int percent = (int)args[1].integer;
+    if (rapid && percent > STEPPER_OVERRIDE_RAPID_MAX) {
+        return err_raise(ERR_ARGUMENT, "percent: %d is invalid (valid is %d to %d for RAPID)",
+                         percent, STEPPER_OVERRIDE_MIN, STEPPER_OVERRIDE_RAPID_MAX);
+    }
+    stepper_status_t status;
+    stepper_status(&status);
+    return stepper_override(rapid ? status.feed_override : percent,
+                            rapid ? percent : status.rapid_override);
+}
+
 err_t control_estop(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;

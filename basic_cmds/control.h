@@ -7,6 +7,9 @@
 err_t control_run(const basic_arg_t *args, size_t count);
 err_t control_clear(const basic_arg_t *args, size_t count);
 err_t control_stop(const basic_arg_t *args, size_t count);
+err_t control_hold(const basic_arg_t *args, size_t count);
+err_t control_resume(const basic_arg_t *args, size_t count);
+err_t control_override(const basic_arg_t *args, size_t count);
 err_t control_estop(const basic_arg_t *args, size_t count);
 err_t control_close(const basic_arg_t *args, size_t count);
 err_t control_position_home(const basic_arg_t *args, size_t count);

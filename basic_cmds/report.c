@@ -46,13 +46,18 @@ err_t report_status(const basic_arg_t *args, size_t count) {
         basic_printf("Stepper not initialized\n");
         return ERR_OK;
     }
-    const char *motion = status.stopping ? "STOPPING" : status.moving ? "ACTIVE" : "IDLE";
+    const char *motion = status.stopping  ? "STOPPING"
+                         : status.holding ? "HOLD"
+                         : status.moving  ? "ACTIVE"
+                                          : "IDLE";
     basic_printf("Armed: %s, motion: %s, position known: %s\n", yes_no(status.armed), motion,
                  yes_no(status.position_known));
     basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
                  (unsigned)(status.blocks - status.blocks_free), (unsigned)status.blocks,
                  (unsigned)status.executed, (unsigned)status.underruns);
     basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
+    basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
+                 status.rapid_override);
     basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status.junction_deviation_mm,
                  status.arc_tolerance_mm);
     basic_printf("E-STOP: %s, drivers then stay on: %s\n", pins_name(status.estop_gpio),

@@ -32,9 +32,10 @@ static void start_basic(void) {
     basic_start(&config);
 }
 
-// Motion that is under way when input or program end is carried out to its end.
+// Motion that is under way when input or program end is carried out to its end, unless it is held.
 static void wait_until_idle(void) {
-    while (stepper_active() > 0) {
+    stepper_status_t status;
+    for (stepper_status(&status); status.moving && !status.holding; stepper_status(&status)) {
         hal_idle(hal_time_us() + 1000);
         basic_cmds_background();
     }

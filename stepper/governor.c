@@ -36,6 +36,7 @@ static struct {
     governor_pins_t pins;
     volatile bool armed;
     volatile bool stopping;
+    volatile bool holding; // feed hold: brake to a standstill and wait there
     volatile bool estop_event;
     volatile uint32_t executed;
     volatile uint32_t drops;
@@ -82,7 +83,7 @@ static float next_speed(float left, float dt, float exit_speed2) {
     const block_t *block = governor.block;
     float v = governor.speed;
     float change = block->move.acceleration * dt;
-    float top = governor.stopping ? 0.0f : block->move.speed;
+    float top = governor.stopping || governor.holding ? 0.0f : planner_top_speed(block);
     float v1 = fminf(v + change, top);
     float root2 = change * change +
                   4.0f * (exit_speed2 + 2.0f * block->move.acceleration * left - change * v);
@@ -158,9 +159,9 @@ static void advance_move(void) {
             governor.pending_ticks += ticks;
             int64_t target[AXIS_COUNT];
             target_at(governor.progress, target);
-            bool stopped = governor.stopping && v1 <= 0.0f;
+            bool stopped = (governor.stopping || governor.holding) && v1 <= 0.0f;
             write_way(target, stopped);
-            if (stopped) {
+            if (stopped && governor.stopping) {
                 drop_blocks();
             }
             return;
@@ -204,7 +205,7 @@ static bool advance(void) {
         switch_drivers(wanted);
         return true;
     }
-    if (front == NULL) {
+    if (front == NULL || (governor.holding && governor.speed <= 0.0f)) {
         return false;
     }
     if (governor.block == NULL) {
@@ -276,6 +277,7 @@ void governor_set_position(const int32_t steps[AXIS_COUNT]) {
 }
 
 void governor_stop(void) {
+    governor.holding = false;
     governor.stopping = governor_working();
 }
 
@@ -294,12 +296,21 @@ void governor_emergency_stop(void) {
     }
     governor.drivers_on = false;
     governor.armed = false;
+    governor.holding = false;
 }
 
 void governor_position(int32_t steps[AXIS_COUNT]) {
     if (!step_isr_position(steps)) {
         segment_writer_end_steps(steps);
     }
+}
+
+void governor_hold(bool hold) {
+    governor.holding = hold;
+}
+
+bool governor_holding(void) {
+    return governor.holding;
 }
 
 bool governor_armed(void) {

@@ -33,6 +33,9 @@ void governor_set_position(const int32_t steps[AXIS_COUNT]);
 // Brake to a stop, then drop all blocks. Follow with hal_governor_request().
 void governor_stop(void);
 
+// Brake to a stop and keep all blocks, or go on. Follow with hal_governor_request().
+void governor_hold(bool hold);
+
 // Ends all motion within this call and disarms, see stepper_estop(). Contexts: also governor.
 void governor_emergency_stop(void);
 
@@ -42,6 +45,7 @@ void governor_position(int32_t steps[AXIS_COUNT]);
 // The following may be read in any context, unlocked.
 bool governor_armed(void);
 bool governor_stopping(void);
+bool governor_holding(void);
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow

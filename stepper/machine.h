@@ -12,7 +12,8 @@ typedef struct {
     stepper_init_t config;
     uint8_t spindle_gpio;
     bool spindle_invert;
-    uint32_t drops_seen; // of governor_drops(), that the planner has followed
+    int feed_override, rapid_override; // percent
+    uint32_t drops_seen;               // of governor_drops(), that the planner has followed
 } machine_t;
 
 extern machine_t machine;

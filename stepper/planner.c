@@ -32,8 +32,7 @@ static struct {
     double target[AXIS_COUNT];    // end of the last queued move, units
     int32_t target_steps[AXIS_COUNT];
     float direction[AXIS_COUNT]; // of the last queued block; all 0: it was not a move
-    float speed;                 // of the last queued move
-    float length;
+    float length;                // of the last queued move
     float deviation;
 } planner;
 
@@ -84,7 +83,8 @@ typedef struct {
     float direction[AXIS_COUNT];
     float length;      // in all axes
     float feed_length; // what the feed counts: X, Y, Z; A if it moves alone
-    float speed;
+    float axes_speed;
+    float feed; // 0: rapid
     float acceleration;
 } geometry_t;
 
@@ -105,12 +105,13 @@ static void measure(geometry_t *g, const double target[AXIS_COUNT]) {
 }
 
 static void limit(geometry_t *g, const stepper_move_t *move) {
-    g->speed = move->rapid ? FLT_MAX : (float)move->feed / 60.0f * (g->length / g->feed_length);
+    g->feed = move->rapid ? 0.0f : (float)move->feed / 60.0f * (g->length / g->feed_length);
+    g->axes_speed = FLT_MAX;
     g->acceleration = FLT_MAX;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         float share = fabsf(g->direction[axis]);
         if (share > 0.0f && axes[axis].configured) {
-            g->speed = fminf(g->speed, axes[axis].velocity / share);
+            g->axes_speed = fminf(g->axes_speed, axes[axis].velocity / share);
             g->acceleration = fminf(g->acceleration, axes[axis].acceleration / share);
         }
     }
@@ -128,7 +129,7 @@ static float acceleration_along(const float change[AXIS_COUNT], float size) {
     return acceleration;
 }
 
-// Square of the speed at the corner between the last queued move and `g`.
+// Square of the speed that the corner between the last queued move and `g` allows.
 static float corner_speed2(const geometry_t *g) {
     float change[AXIS_COUNT];
     float change2 = 0.0f;
@@ -141,9 +142,8 @@ static float corner_speed2(const geometry_t *g) {
     if (previous2 == 0.0f || change2 > REVERSAL) {
         return 0.0f;
     }
-    float feed = fminf(g->speed, planner.speed);
     if (change2 < STRAIGHT_ON) {
-        return feed * feed;
+        return FLT_MAX;
     }
     // With phi the angle between the moves: change2 / 4 = sin^2(phi/2). Junction deviation in the
     // usual form is r = deviation * s / (1 - s), s = cos(phi/2); 1 - s = sin^2(phi/2) / (1 + s) keeps
@@ -154,7 +154,7 @@ static float corner_speed2(const geometry_t *g) {
     float by_deviation = acceleration * planner.deviation * s * (1.0f + s) / sin2;
     float half_length = 0.5f * fminf(g->length, planner.length);
     float by_length = acceleration * half_length * s / sqrtf(sin2);
-    return fminf(feed * feed, fminf(by_deviation, by_length));
+    return fminf(by_deviation, by_length);
 }
 
 // ---- The ring ------------------------------------------------------------------------------------
@@ -163,9 +163,25 @@ static uint32_t slot_before(uint32_t slot) {
     return slot > 0 ? slot - 1 : blocks.ring.size - 1;
 }
 
-// Backwards from the newest block to the one being executed, whose entry is history. Ends early where
-// an entry stays as it was: nothing before it can change then.
-static void plan_backwards(void) {
+float planner_top_speed(const block_t *move) {
+    return move->move.feed > 0.0f
+               ? fminf(move->move.axes_speed, move->move.feed * blocks.feed_factor)
+               : move->move.axes_speed * blocks.rapid_factor;
+}
+
+// The corner within the speeds on both sides of it.
+static v2_t entry_cap(const block_t *before, const block_t *block) {
+    if (before->kind != BLOCK_MOVE) {
+        return 0;
+    }
+    float top = fminf(planner_top_speed(before), planner_top_speed(block));
+    v2_t sides = v2_from(top * top);
+    return sides < block->move.corner ? sides : block->move.corner;
+}
+
+// Backwards from the newest block to the one being executed, whose entry is history. Unless all caps
+// are new it ends where an entry stays as it was: nothing before it can change then.
+static void plan_backwards(bool all) {
     uint32_t used = ring_used(&blocks.ring);
     uint32_t slot = blocks.ring.put_slot;
     v2_t exit = 0;
@@ -173,11 +189,15 @@ static void plan_backwards(void) {
         slot = slot_before(slot);
         block_t *block = &blocks.slots[slot];
         if (block->kind != BLOCK_MOVE) {
-            return; // at rest there, and so it was before
+            if (!all) {
+                return; // at rest there, and so it was before
+            }
+            exit = 0;
+            continue;
         }
         v2_t reachable = block->move.gain < V2_MAX - exit ? block->move.gain + exit : V2_MAX;
         v2_t entry = reachable < block->move.entry_cap ? reachable : block->move.entry_cap;
-        if (entry == block->move.entry && waiting < used) {
+        if (!all && entry == block->move.entry && waiting < used) {
             return;
         }
         block->move.entry = entry;
@@ -202,21 +222,41 @@ void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AX
     block->kind = BLOCK_MOVE;
     memcpy(block->move.target, target_steps, sizeof block->move.target);
     block->move.length = g.length;
-    block->move.speed = g.speed;
+    block->move.axes_speed = g.axes_speed;
+    block->move.feed = g.feed;
     block->move.acceleration = g.acceleration;
-    block->move.entry_cap = v2_from(corner_speed2(&g));
+    block->move.corner = v2_from(corner_speed2(&g));
+    block->move.entry_cap = block->move.corner > 0
+                                ? entry_cap(&blocks.slots[slot_before(blocks.ring.put_slot)], block)
+                                : 0;
     block->move.entry = 0;
     block->move.gain = v2_from(2.0f * g.acceleration * g.length);
 
     memcpy(planner.target, move->target, sizeof planner.target);
     memcpy(planner.target_steps, target_steps, sizeof planner.target_steps);
     memcpy(planner.direction, g.direction, sizeof planner.direction);
-    planner.speed = g.speed;
     planner.length = g.length;
 
     hal_governor_lock();
     ring_put(&blocks.ring);
-    plan_backwards();
+    plan_backwards(false);
+    hal_governor_unlock();
+}
+
+void planner_set_override(float feed_factor, float rapid_factor) {
+    hal_governor_lock();
+    blocks.feed_factor = feed_factor;
+    blocks.rapid_factor = rapid_factor;
+    uint32_t slot = blocks.ring.take_slot;
+    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
+        const block_t *before = &blocks.slots[slot];
+        slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+        block_t *block = &blocks.slots[slot];
+        if (block->kind == BLOCK_MOVE) {
+            block->move.entry_cap = entry_cap(before, block);
+        }
+    }
+    plan_backwards(true);
     hal_governor_unlock();
 }
 

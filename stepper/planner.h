@@ -20,11 +20,13 @@ typedef struct {
         struct {
             int32_t target[AXIS_COUNT]; // steps, where the move ends
             float length;               // units, > 0
-            float speed;                // units/s, the most anywhere on this block
-            float acceleration;         // units/s^2
-            v2_t entry_cap;             // speed that the corner before it allows
-            v2_t entry; // planned speed at its start; only ever raised while it waits
-            v2_t gain;  // 2 * acceleration * length
+            float axes_speed;           // units/s, the most that the axes allow
+            float feed;         // units/s, as programmed; 0: rapid, as fast as the axes allow
+            float acceleration; // units/s^2
+            v2_t corner;        // speed that the corner before it allows
+            v2_t entry_cap;     // the same, within what is allowed on both sides of the corner
+            v2_t entry;         // planned speed at its start
+            v2_t gain;          // 2 * acceleration * length
         } move;
         uint32_t dwell_ticks;
         struct {
@@ -36,12 +38,14 @@ typedef struct {
 typedef struct {
     ring_t ring;
     block_t slots[STEPPER_BLOCKS_MAX];
-    float v2_unit; // (units/s)^2 of one v2_t step
+    float v2_unit;     // (units/s)^2 of one v2_t step
+    float feed_factor; // overrides, 1: as programmed
+    float rapid_factor;
 } planner_ring_t;
 
 extern planner_ring_t blocks;
 
-// Empties the ring and gives it `size` slots. Context: main with the governor locked.
+// Empties the ring and gives it `size` slots; overrides stay. Context: main with the governor locked.
 void planner_reset(uint32_t size);
 
 // Recomputes the speed scale after the axes changed. Context: main, ring empty.
@@ -55,6 +59,12 @@ void planner_target(double target[AXIS_COUNT]);
 
 void planner_set_junction_deviation(float deviation_mm);
 float planner_junction_deviation(void);
+
+// Overrides as factors; plans the whole ring anew. Context: main.
+void planner_set_override(float feed_factor, float rapid_factor);
+
+// The most that is allowed anywhere on the move now, units/s. Contexts: main, governor.
+float planner_top_speed(const block_t *move);
 
 // Puts a move, whose target has been checked, behind all others and re-plans the ring. A move
 // shorter than half a step of each axis is not queued: its way is part of the next one.

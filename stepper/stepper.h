@@ -71,6 +71,17 @@ err_t stepper_clear(void);
 // the position stays exact. Returns at once; until standstill new moves are refused. No effect at rest.
 void stepper_stop(void);
 
+// Feed hold: brakes along the path within the acceleration limits and waits, in a dwell as well; the
+// queue stays. `hold` false goes on from there. Stops end a hold.
+err_t stepper_hold(bool hold);
+
+#define STEPPER_OVERRIDE_MIN 10
+#define STEPPER_OVERRIDE_MAX 200
+#define STEPPER_OVERRIDE_RAPID_MAX 100
+// Overrides in percent of the programmed feed and of the rapid speed, at once and for all that is
+// queued. The axes' limits stay. INIT sets 100.
+err_t stepper_override(int feed_percent, int rapid_percent);
+
 // Emergency stop: no further step, queue dropped, spindle off, drivers off (unless INIT keeps them),
 // disarmed. After a stop from speed the position counts as unknown.
 err_t stepper_estop(void);
@@ -110,12 +121,13 @@ void stepper_target(double target[AXIS_COUNT]);
 // ---- Reports -------------------------------------------------------------------------------------
 
 typedef struct {
-    bool initialized, armed, moving, stopping, position_known, spindle_on;
+    bool initialized, armed, moving, stopping, holding, position_known, spindle_on;
     stepper_idle_t idle;
     uint32_t blocks, blocks_free;
     uint32_t executed; // queue entries carried out since INIT
     uint32_t
         underruns; // times the tick ran dry at speed since INIT; anything but 0 is a fault of ours
+    int feed_override, rapid_override; // percent
     double junction_deviation_mm, arc_tolerance_mm;
     uint8_t estop_gpio, spindle_gpio;
     bool estop_keeps_enabled, spindle_invert;

@@ -45,6 +45,27 @@ void stepper_stop(void) {
     hal_governor_unlock();
 }
 
+err_t stepper_hold(bool hold) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        hal_governor_lock();
+        governor_hold(hold);
+        hal_governor_request();
+        hal_governor_unlock();
+    }
+    return err;
+}
+
+err_t stepper_override(int feed_percent, int rapid_percent) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        machine.feed_override = feed_percent;
+        machine.rapid_override = rapid_percent;
+        planner_set_override((float)feed_percent / 100.0f, (float)rapid_percent / 100.0f);
+    }
+    return err;
+}
+
 err_t stepper_estop(void) {
     err_t err = machine_check_initialized();
     if (err != ERR_OK) {

@@ -41,6 +41,7 @@ static void reset_motion(void) {
     planner_set_scale();
     planner_set_position(zero);
     planner_set_junction_deviation((float)STEPPER_JUNCTION_DEVIATION_MM);
+    stepper_override(100, 100);
 }
 
 err_t stepper_init(const stepper_init_t *config) {
