@@ -100,7 +100,7 @@ static void test_offsets(void) {
 
 static void test_refusals_name_their_reason(void) {
     check_refused("X10", "No motion mode - start with G0 or G1");
-    check_refused("G1 X10", "Feedrate not set");
+    check_refused("G1 X10", "Feedrate not set (give F once, in mm/min)");
     check_refused("G1X10Y0X5 F100", "X given twice");
     check_refused("G1 X F100", "Missing value for X");
     check_refused("G1 X--1", "Missing value for X");

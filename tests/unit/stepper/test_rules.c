@@ -21,7 +21,7 @@ static void check_refused(err_t expected, err_t actual, const char *message) {
 
 static void test_nothing_works_before_init(void) {
     stepper_move_t move = to(1, 0);
-    const char *message = "Stepper not initialized";
+    const char *message = "Stepper not initialized (use STEPPER INIT)";
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_axis(AXIS_X, &x_axis), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_limits(AXIS_X, 0, 1), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_spindle(14, false), message);
@@ -43,7 +43,7 @@ static void test_nothing_works_before_init(void) {
 static void test_init_twice(void) {
     TEST_ASSERT_EQUAL(ERR_OK, stepper_init(&plain));
     check_refused(ERR_STEPPER_ALREADY_INITIALIZED, stepper_init(&plain),
-                  "Stepper already initialized");
+                  "Stepper already initialized (use STEPPER CLOSE to start anew)");
     TEST_ASSERT_EQUAL(ERR_OK, stepper_close());
     TEST_ASSERT_EQUAL(ERR_OK, stepper_init(&plain));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_close());
@@ -98,7 +98,8 @@ static void test_moves_that_are_refused(void) {
                   "Machine position unknown - use STEPPER POSITION or G28 homing first");
     TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
     move = to(1, 1);
-    check_refused(ERR_AXIS_NOT_CONFIGURED, stepper_move(&move), "Y axis not configured");
+    check_refused(ERR_AXIS_NOT_CONFIGURED, stepper_move(&move),
+                  "Y axis not configured (use STEPPER AXIS)");
     TEST_ASSERT_EQUAL(ERR_OK, stepper_limits(AXIS_X, -10, 100));
     move = to(100.1, 0);
     check_refused(ERR_SOFT_LIMIT, stepper_move(&move), "X position exceeds soft limits");
