@@ -63,13 +63,16 @@ static bool read_lines(bool *start) {
 }
 
 err_t autosave_read(bool *start) {
-    if (hal_tick_running()) {
-        return err_raise(ERR_STORAGE_BUSY, "%s", "");
-    }
     incoming.text = (char *)memory.heap;
     incoming.length = 0;
     incoming.size = memory_free() > RESERVE ? memory_free() - RESERVE : 0;
     incoming.error = ERR_OK;
+    if (hal_tick_running()) {
+        incoming.error = ERR_STORAGE_BUSY;
+        console_print(
+            "Motion runs or an E-STOP input is watched: text up to Ctrl-Z or Ctrl-C is dropped");
+        console_new_line();
+    }
     if (!read_lines(start)) {
         console_clear_break();
         return ERR_OK;

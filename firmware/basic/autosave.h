@@ -8,6 +8,8 @@
 
 // Takes lines up to Ctrl-Z or F1, makes them the program and keeps them in flash. Ctrl-C leaves the
 // old program as it was. *start becomes true if it is to run. Errors: too long, motion runs.
+// What is pasted behind a refused AUTOSAVE is a program, not a list of commands for a machine in motion:
+// it is taken in all the same and dropped.
 err_t autosave_read(bool *start);
 
 #endif
