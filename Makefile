@@ -27,8 +27,9 @@ test: ## every test; under 15 minutes on two cores
 	@$(foreach preset,host asan pico pico2,$(call build,$(preset),-DSTEPMITE_TESTS=ON,all) &&) true
 	@$(PYTHON) -m pytest -q -n $(JOBS) --timeout 600 tests
 
-bench: ## cycles of tick, governor and G-code line in the emulator; writes docs/performance.md
+bench: ## cycles in the emulator, motion times; writes docs/performance.md
 	@tools/setup bench
+	@$(call build,host,,stepmite)
 	@$(call build,pico,,stepmite-pico)
 	@$(PYTHON) tests/bench/bench_tick.py --write docs/performance.md
 

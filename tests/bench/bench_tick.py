@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""CPU cycles of the firmware, counted in the emulator: prints tables, can write them as a page.
+"""CPU cycles counted in the emulator, and motion times: prints tables, can write them as a page.
 
     .venv/bin/python tests/bench/bench_tick.py [--uf2 FILE] [--write docs/performance.md]
 
@@ -15,12 +15,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 import measure
+import motion
 from rich.console import Console
 from rich.table import Table
 
 from stepmite.emulator import PROJECT, Cycles
 
 GOAL_TICK_MEAN, GOAL_TICK_MOST, GOAL_LINE = 120, 220, 20_000
+GOAL_MOTION = 0.01
 TICK_CYCLES = 1250
 
 INTRO = """\
@@ -115,6 +117,32 @@ def lateness_section(uf2: Path) -> Section:
     return section
 
 
+def motion_section(missed: list[str]) -> Section:
+    section = Section(
+        "Motion times", ["", "junction deviation", "taken", "optimum", "more by", "every step"]
+    )
+    section.note = (
+        f"80 steps/mm, {motion.VELOCITY_MM_MIN:.0f} mm/min, {motion.ACCELERATION:.0f} mm/s², "
+        "queued first, on the host program, whose step train is that of the board. The optimum is "
+        "the exact trapezoid for the same corners, computed on the PC; goal: within 1 %."
+    )
+    for outcome in motion.outcomes():
+        more = outcome.taken_s / outcome.optimum_s - 1
+        section.rows.append(
+            [
+                outcome.name,
+                f"{outcome.deviation_mm} mm",
+                f"{outcome.taken_s * 1000:.1f} ms",
+                f"{outcome.optimum_s * 1000:.1f} ms",
+                f"{more * 100:.2f} %",
+                "yes" if outcome.exact else "NO",
+            ]
+        )
+        if more > GOAL_MOTION or not outcome.exact:
+            missed.append(f"{outcome.name} at {outcome.deviation_mm} mm")
+    return section
+
+
 def size_text(uf2: Path) -> str:
     """The table of flash and RAM by part, as the audit prints it."""
     script = PROJECT / "tools" / "audit" / "size.py"
@@ -153,6 +181,7 @@ def main() -> int:
         planning_section(options.uf2, missed),
         statement_section(options.uf2),
         lateness_section(options.uf2),
+        motion_section(missed),
     ]
     console = Console()
     for section in sections:
