@@ -333,6 +333,10 @@ uint32_t governor_drops(void) {
     return governor.drops;
 }
 
+bool governor_estop_event(void) {
+    return governor.estop_event;
+}
+
 bool governor_take_estop_event(void) {
     bool event = governor.estop_event;
     governor.estop_event = false;

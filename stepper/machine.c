@@ -16,6 +16,10 @@ void machine_follow_motors(void) {
 }
 
 void machine_follow_stops(void) {
+    // Not only when the event is told to the user: nothing may be queued on a lost position before.
+    if (governor_estop_event()) {
+        machine.position_known = false;
+    }
     uint32_t drops = governor_drops();
     if (drops != machine.drops_seen && !governor_working()) {
         machine.drops_seen = drops;

@@ -60,6 +60,7 @@ uint32_t stepper_blocks_free(void) {
 }
 
 uint32_t stepper_status_bits(void) {
+    machine_follow_stops();
     uint32_t bits = 0;
     bits |= machine_estop_asserted() ? STEPPER_STATUS_ESTOP : 0;
     bits |= machine.initialized && machine.position_known ? STEPPER_STATUS_POSITION_KNOWN : 0;
@@ -67,8 +68,8 @@ uint32_t stepper_status_bits(void) {
 }
 
 stepper_event_t stepper_next_event(void) {
+    machine_follow_stops();
     if (governor_take_estop_event()) {
-        machine.position_known = false;
         return STEPPER_EVENT_ESTOP;
     }
     return STEPPER_EVENT_NONE;

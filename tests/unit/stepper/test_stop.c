@@ -125,6 +125,8 @@ static void check_estop_pin(bool keeps_enabled) {
     bench_wait_us(100000);
     TEST_ASSERT_LESS_OR_EQUAL_UINT64(pressed_ns, bench.last_step_ns); // no step after the next tick
     bench_check_positions();
+    const stepper_move_t move = {{1, 0, 0, 0}, 600, false};
+    TEST_ASSERT_EQUAL(ERR_POSITION_UNKNOWN, stepper_move(&move)); // before anybody asked
     TEST_ASSERT_EQUAL(STEPPER_EVENT_ESTOP, stepper_next_event());
     TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());
     TEST_ASSERT_EQUAL(STEPPER_STATUS_ESTOP, stepper_status_bits());
