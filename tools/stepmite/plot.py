@@ -75,6 +75,10 @@ def draw_path(axes: Axes, points: Floats, depth: Floats | None, width: float = 1
     shades.set_array(-depth[1:][~above])
     axes.add_collection(shades)
     axes.autoscale_view()
+    if axes.figure is not None and not above.all():
+        bar = axes.figure.colorbar(shades, ax=axes, shrink=0.8, pad=0.01)
+        bar.set_label("depth below zero in mm", color=INK, size=8)
+        bar.ax.tick_params(colors=INK, labelsize=8)
 
 
 def draw_speed(axes: Axes, traces: list[AxisTrace]) -> None:
@@ -110,11 +114,12 @@ def draw_acceleration(axes: Axes, traces: list[AxisTrace], window: int = 25_000_
         bend = (after - 2 * here + before) / trace.pins.steps_per_unit / (window / 1e9) ** 2
         colour = AXIS_COLOURS.get(trace.name, ACCENT)
         axes.plot((middles - begin) / 1e9, bend, color=colour, linewidth=0.7, label=trace.name)
-    axes.legend(fontsize=8, frameon=False)
+    axes.set_xlim(0, (end - begin) / 1e9)
+    axes.legend(fontsize=8, frameon=False, loc="upper right", ncols=len(traces))
     style(axes, "time in s", "acceleration\nin mm/s²")
 
 
-def figure_of(traces: list[AxisTrace], corners: Floats | None) -> Figure:
+def figure_of(traces: list[AxisTrace], corners: Floats | None, title: str = "") -> Figure:
     """Draw everything `stepmite plot` shows."""
     path = merge(traces)
     points = path.units()
@@ -123,7 +128,9 @@ def figure_of(traces: list[AxisTrace], corners: Floats | None) -> Figure:
     figure, diagrams = plt.subplots(
         rows, 1, figsize=(11, 3 + 1.6 * rows), height_ratios=heights, layout="constrained"
     )
-    if corners is not None:
+    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.08)
+    figure.suptitle(title, color=INK, size=11)
+    if corners is not None and len(traces) >= 2:
         draw_commanded(diagrams[0], corners)
     depth = points[:, path.names.index("Z")] if "Z" in path.names else None
     if len(traces) >= 2:
@@ -152,6 +159,8 @@ def plot_file(edges: Path, axes: list[str], output: Path, gcode: Path | None) ->
     if not traces:
         raise TraceError(f"{edges}: no steps on the pins of {', '.join(still)}")
     corners = commanded_path(read_lines(gcode)) if gcode is not None else None
-    figure = figure_of(traces, corners)
+    figure = figure_of(
+        traces, corners, edges.name if gcode is None else f"{edges.name}, {gcode.name}"
+    )
     figure.savefig(output, dpi=130)
     plt.close(figure)
