@@ -78,15 +78,21 @@ def _stream(board: Board, job: stream.Job, reserve: int, arm: bool, console: Con
             with _interrupts(streamer):
                 streamer.run()
     except Cancelled:
-        console.print(f"Stopped at {stream.position_text(board)}", style="yellow")
+        _print_stop(board, console)
         return EXIT_CANCELLED
     except stream.JobError:
-        console.print(f"Stopped at {stream.position_text(board)}", style="yellow")
+        _print_stop(board, console)
         raise
     took = clock(time.monotonic() - started)
     end = stream.position_text(board)
     console.print(f"{'Done' if arm else 'Queued'}: {len(job.lines)} lines in {took}, now at {end}")
     return 0
+
+
+def _print_stop(board: Board, console: Console) -> None:
+    place = stream.position_text(board)
+    if place:  # a board that is not set up stands nowhere
+        console.print(f"Stopped at {place}", style="yellow")
 
 
 @contextmanager
