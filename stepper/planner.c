@@ -163,18 +163,22 @@ static uint32_t slot_before(uint32_t slot) {
     return slot > 0 ? slot - 1 : blocks.ring.size - 1;
 }
 
+static float top_speed(const block_t *move, const planner_override_t *override) {
+    return move->move.feed > 0.0f ? fminf(move->move.axes_speed, move->move.feed * override->feed)
+                                  : move->move.axes_speed * override->rapid;
+}
+
 float planner_top_speed(const block_t *move) {
-    return move->move.feed > 0.0f
-               ? fminf(move->move.axes_speed, move->move.feed * blocks.feed_factor)
-               : move->move.axes_speed * blocks.rapid_factor;
+    return top_speed(move, &blocks.override);
 }
 
 // The corner within the speeds on both sides of it.
-static v2_t entry_cap(const block_t *before, const block_t *block) {
+static v2_t entry_cap(const block_t *before, const block_t *block,
+                      const planner_override_t *override) {
     if (before->kind != BLOCK_MOVE) {
         return 0;
     }
-    float top = fminf(planner_top_speed(before), planner_top_speed(block));
+    float top = fminf(top_speed(before, override), top_speed(block, override));
     v2_t sides = v2_from(top * top);
     return sides < block->move.corner ? sides : block->move.corner;
 }
@@ -226,9 +230,8 @@ void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AX
     block->move.feed = g.feed;
     block->move.acceleration = g.acceleration;
     block->move.corner = v2_from(corner_speed2(&g));
-    block->move.entry_cap = block->move.corner > 0
-                                ? entry_cap(&blocks.slots[slot_before(blocks.ring.put_slot)], block)
-                                : 0;
+    const block_t *before = &blocks.slots[slot_before(blocks.ring.put_slot)];
+    block->move.entry_cap = block->move.corner > 0 ? entry_cap(before, block, &blocks.override) : 0;
     block->move.entry = 0;
     block->move.gain = v2_from(2.0f * g.acceleration * g.length);
 
@@ -243,19 +246,19 @@ void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AX
     hal_governor_unlock();
 }
 
-void planner_set_override(float feed_factor, float rapid_factor) {
-    hal_governor_lock();
-    blocks.feed_factor = feed_factor;
-    blocks.rapid_factor = rapid_factor;
-    uint32_t slot = blocks.ring.take_slot;
+// The caps are no business of the governor's, so the long part runs unlocked; blocks that are executed
+// meanwhile keep their contents. Entries and factors change together.
+void planner_set_override(const planner_override_t *override) {
+    uint32_t slot = blocks.ring.put_slot;
     for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
-        const block_t *before = &blocks.slots[slot];
-        slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+        slot = slot_before(slot);
         block_t *block = &blocks.slots[slot];
         if (block->kind == BLOCK_MOVE) {
-            block->move.entry_cap = entry_cap(before, block);
+            block->move.entry_cap = entry_cap(&blocks.slots[slot_before(slot)], block, override);
         }
     }
+    hal_governor_lock();
+    blocks.override = *override;
     plan_backwards(true);
     hal_governor_unlock();
 }

@@ -35,12 +35,16 @@ typedef struct {
     };
 } block_t;
 
+// Factors on the programmed feed and on the rapid speed, 1: as they are.
+typedef struct {
+    float feed, rapid;
+} planner_override_t;
+
 typedef struct {
     ring_t ring;
     block_t slots[STEPPER_BLOCKS_MAX];
-    float v2_unit;     // (units/s)^2 of one v2_t step
-    float feed_factor; // overrides, 1: as programmed
-    float rapid_factor;
+    float v2_unit; // (units/s)^2 of one v2_t step
+    planner_override_t override;
 } planner_ring_t;
 
 extern planner_ring_t blocks;
@@ -60,8 +64,8 @@ void planner_target(double target[AXIS_COUNT]);
 void planner_set_junction_deviation(float deviation_mm);
 float planner_junction_deviation(void);
 
-// Overrides as factors; plans the whole ring anew. Context: main.
-void planner_set_override(float feed_factor, float rapid_factor);
+// Plans the whole ring anew with these overrides. Context: main.
+void planner_set_override(const planner_override_t *override);
 
 // The most that is allowed anywhere on the move now, units/s. Contexts: main, governor.
 float planner_top_speed(const block_t *move);

@@ -61,7 +61,11 @@ err_t stepper_override(int feed_percent, int rapid_percent) {
     if (err == ERR_OK) {
         machine.feed_override = feed_percent;
         machine.rapid_override = rapid_percent;
-        planner_set_override((float)feed_percent / 100.0f, (float)rapid_percent / 100.0f);
+        const planner_override_t override = {
+            .feed = (float)feed_percent / 100.0f,
+            .rapid = (float)rapid_percent / 100.0f,
+        };
+        planner_set_override(&override);
     }
     return err;
 }
