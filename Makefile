@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 PYTHON := .venv/bin/python
 
-.PHONY: help run host firmware test bench demo fuzz reference format clean
+.PHONY: help run host firmware tools test bench demo fuzz reference format clean
 .DEFAULT_GOAL := help
 
 help: ## say what there is
@@ -21,6 +21,10 @@ firmware: ## build/pico/stepmite-pico.uf2 and build/pico2/stepmite-pico2.uf2
 	@tools/setup firmware
 	@$(call build,pico,,stepmite-pico)
 	@$(call build,pico2,,stepmite-pico2)
+
+tools: ## .venv/bin/stepmite, the PC tools: stream, console, plot
+	@tools/setup tools
+	@echo "the PC tools are ready: .venv/bin/stepmite --help"
 
 test: ## every test; under 15 minutes on two cores
 	@tools/setup test
