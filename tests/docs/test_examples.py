@@ -1,0 +1,188 @@
+"""What the pages tell a reader to type does what they say: run on the host program, as printed.
+
+Blocks with prompts ("> ") and `basic` blocks of a page are typed into one session in their order.
+What stands between two prompts is the answer; without one any answer will do that is no error.
+Blocks below the heading "Programs" are programs: pasted behind AUTOSAVE and started twice.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+STEPMITE = ROOT / "build/host/stepmite"
+PC_TOOLS = ROOT / ".venv/bin/stepmite"
+PAGES = ["README.md", "docs/user-guide.md", "docs/pc-tools.md", "docs/testing.md"]
+CTRL_Z = "\x1a"
+WAIT = "DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) = 0"
+
+
+@dataclass
+class Block:
+    """A fenced block: its language, the heading above it and its lines."""
+
+    language: str
+    heading: str
+    lines: list[str] = field(default_factory=list)
+
+
+def blocks(page: str) -> list[Block]:
+    """Return the fenced blocks of a page."""
+    found: list[Block] = []
+    heading, inside = "", False
+    for line in (ROOT / page).read_text(encoding="utf-8").splitlines():
+        if line.startswith("```"):
+            inside = not inside
+            if inside:
+                found.append(Block(line[3:], heading))
+        elif inside:
+            found[-1].lines.append(line)
+        elif line.startswith("#"):
+            heading = line.lstrip("# ")
+    return found
+
+
+@dataclass
+class Typed:
+    """A line to type and the answer that is printed below it, if one is."""
+
+    line: str
+    answer: list[str] = field(default_factory=list)
+
+
+def script(page: str) -> list[Typed]:
+    """Return what a page says to type, in order."""
+    typed: list[Typed] = []
+    for block in blocks(page):
+        if block.language == "basic" and block.heading == "Programs":
+            typed.append(Typed(WAIT))
+            typed.append(Typed("AUTOSAVE\n" + "\n".join(block.lines) + "\n" + CTRL_Z))
+            typed += [Typed("RUN"), Typed("RUN")]
+        elif block.language == "basic":
+            typed += [Typed(line) for line in block.lines]
+        elif block.lines and block.lines[0].startswith("> "):
+            for line in block.lines:
+                if line.startswith("> "):
+                    typed.append(Typed(line[2:]))
+                else:
+                    typed[-1].answer.append(line)
+    return typed
+
+
+def converse(lines: list[str]) -> list[list[str]]:
+    """Type lines at the prompt; return the answer to each."""
+    text = "".join(f'{line}\nPRINT "<{i}>"\n' for i, line in enumerate(lines))
+    shown = subprocess.run(
+        [STEPMITE, "--virtual"], input=text, capture_output=True, text=True, timeout=60, check=True
+    ).stdout.replace("\r", "")
+    answers = []
+    for i, line in enumerate(lines):
+        before, mark, shown = shown.partition(f'> PRINT "<{i}>"\n<{i}>\n')
+        assert mark, f"no prompt after {line!r}"
+        echo = f"> {line}\n"
+        answers.append(before[before.find(echo) + len(echo) :].splitlines())
+    return answers
+
+
+def failed(answer: list[str]) -> bool:
+    """Say whether an answer is an error of BASIC."""
+    return any("Error :" in line for line in answer)
+
+
+@pytest.mark.parametrize("page", PAGES[:2])
+def test_what_a_page_says_to_type_works(page: str) -> None:
+    """Each answer that is printed in the page is the real one, and nothing else is refused."""
+    typed = script(page)
+    assert len(typed) >= 5
+    for step, answer in zip(typed, converse([step.line for step in typed]), strict=True):
+        if step.answer:
+            assert answer == step.answer, step.line
+        else:
+            assert not failed(answer), (step.line, answer)
+
+
+def test_the_check_finds_a_planted_fault() -> None:
+    """A refused line is seen as one, an answer is taken from the right place."""
+    answers = converse(["PRINT 3 * 4", "STEPPER RUN", "PRINT 1"])
+    assert answers[0] == [" 12"]
+    assert answers[2] == [" 1"]
+    assert [failed(answer) for answer in answers] == [False, True, False]
+
+
+def test_the_first_move_ends_at_its_target() -> None:
+    """The five lines at the top of README move X by 10 mm."""
+    lines = next(block.lines for block in blocks("README.md") if block.language == "basic")
+    assert converse([*lines, WAIT, "PRINT PEEK(STEPPER X)"])[-1] == [" 10"]
+
+
+def test_the_g_codes_of_the_guide_are_understood() -> None:
+    """Each code in the table of the user guide is accepted."""
+    text = (ROOT / "docs/user-guide.md").read_text(encoding="utf-8")
+    table = text.split("## G-code")[1].split("##")[0]
+    cells = re.findall(r"^\| (`G.*?|`M.*?) \|", table, re.MULTILINE)
+    codes = [code for cell in cells for code in re.findall(r"`(.*?)`", cell)]
+    assert {"G0", "G1", "G4 P500", "G92 X0", "M3", "M5"} <= set(codes)
+    machine = (ROOT / "examples/machine.bas").read_text(encoding="utf-8").splitlines()
+    lines = [*machine, *(f"STEPPER GC {code}" for code in codes)]
+    for line, answer in zip(lines, converse(lines), strict=True):
+        assert not failed(answer), (line, answer)
+
+
+def test_machine_bas_can_be_sent_twice() -> None:
+    """The example set-up works on a fresh board and on one that is set up; pc-tools.md shows it."""
+    machine = (ROOT / "examples/machine.bas").read_text(encoding="utf-8").splitlines()
+    for line, answer in zip(machine * 2, converse(machine * 2), strict=True):
+        assert not failed(answer), (line, answer)
+    shown = "".join(f"    {line}\n" for line in machine)
+    assert shown in (ROOT / "docs/pc-tools.md").read_text(encoding="utf-8")
+
+
+@cache
+def known_commands() -> set[str]:
+    """Return the names of all command rows, from the reference made of them."""
+    text = (ROOT / "docs/reference.md").read_text(encoding="utf-8")
+    return set(re.findall(r"^## (STEPPER \w+)", text, re.MULTILINE))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_commands_named_in_the_text_exist(page: str) -> None:
+    """Each `STEPPER ...` in running text is a command."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = re.findall(r"(?<!PEEK\()STEPPER [A-Z]{2,}", re.sub(r"`STEPPER\s+", "`STEPPER ", text))
+    assert {name for name in named if not name.endswith("COMMANDS")} <= known_commands()
+
+
+@cache
+def help_of(command: str) -> str:
+    """Return what a PC tool says about its options."""
+    result = subprocess.run(
+        [PC_TOOLS, command, "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={"COLUMNS": "200", "TERM": "dumb"},
+    )
+    return result.stdout
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_targets_and_tools_named_in_the_text_exist(page: str) -> None:
+    """`make X` is a target; `stepmite X --option` is a PC tool that has the option."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    code = re.findall(r"`([^`\n]+)`", text)
+    code += [line for block in blocks(page) for line in block.lines]
+    code += re.findall(r"^    (\S.*)$", text, re.MULTILINE)
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    for line in code:
+        if match := re.match(r"make (\w+)", line):
+            assert re.search(rf"^{match[1]}:", makefile, re.MULTILINE), line
+        if match := re.match(r"(?:\.venv/bin/)?stepmite (\w+)\b(?!\.)(.*)", line):
+            options = help_of(match[1])
+            for option in re.findall(r"(?<!\S)(--?[a-z][\w-]*)", match[2].split(" #")[0]):
+                assert re.search(rf"(?<!\S){option}\b", options), line
