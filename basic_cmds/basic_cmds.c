@@ -142,5 +142,8 @@ void basic_cmds_background(void) {
 }
 
 void basic_cmds_break(void) {
+    if (stepper_active() > 0) {
+        basic_notice("Ctrl-C: motion stops, what was queued is dropped");
+    }
     stepper_stop();
 }

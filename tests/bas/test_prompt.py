@@ -270,3 +270,13 @@ def test_output_is_seen_while_a_program_computes():
         while b"begun" not in seen:  # the test's time limit ends a wait in vain
             seen += program.stdout.read(100)
         program.kill()
+
+
+def test_ctrl_c_says_that_it_stops_the_machine():
+    """With nothing to stop it says nothing."""
+    setup = "STEPPER INIT\rSTEPPER AXIS X,2,3\rSTEPPER POSITION HOME\rSTEPPER RUN\r"
+    moving = setup + "STEPPER GC G1 X100 F1200\rPAUSE 100\r"
+    said = "Ctrl-C: motion stops, what was queued is dropped"
+    shown = answers(moving + CTRL_C + "PAUSE 500\rPRINT PEEK(STEPPER X) < 9\r" + CTRL_C)
+    assert shown[-2:] == [said, " 1"]
+    assert said not in answers(setup + CTRL_C)
