@@ -10,6 +10,7 @@
 #define INPUT_GPIO 3u
 #define UART_TX_GPIO 0u
 #define TICKS 1000u
+#define LOST_BYTE '\xff' // stands in the UART's input where bytes are missing
 
 static volatile uint32_t ticks;
 static volatile uint32_t ticks_wanted;
@@ -159,6 +160,16 @@ static void check_pins(void) {
     say_numbers("pins", up, down, driven);
 }
 
+// As under a stream of input that never ends a line: the prompt takes it and comes to nothing else.
+static void read_without_pause(void) {
+    uint64_t until_us = hal_time_us() + 9000000;
+    uint8_t bytes[16];
+    while (hal_time_us() < until_us) {
+        hal_console_read(bytes, sizeof bytes);
+    }
+    say("still here\r\n");
+}
+
 static void print_much(void) {
     char line[80];
     for (unsigned i = 0; i < 500; i++) {
@@ -216,6 +227,9 @@ static void obey(char command) {
     case 'l':
         print_much();
         break;
+    case 'c':
+        read_without_pause();
+        break;
     case 'u':
         hal_pin_output(UART_TX_GPIO, true);
         say("uart pins taken\r\n");
@@ -223,6 +237,11 @@ static void obey(char command) {
     case 'v':
         hal_pin_release(UART_TX_GPIO);
         say("uart pins given back\r\n");
+        break;
+    case '.':
+        break;
+    case LOST_BYTE:
+        say("input is missing\r\n");
         break;
     case 'n':
         say(hal_board_name());

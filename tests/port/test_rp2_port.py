@@ -121,6 +121,46 @@ def test_greeting_goes_to_the_first_terminal_only(clean_board):
     assert clean_board.output() == ""
 
 
+def test_rts_alone_loses_no_output(clean_board):
+    """Windows raises DTR and RTS one after the other."""
+    clean_board.send("l")
+    clean_board.run_ms(1)
+    for rts in (False, True, False, True):
+        clean_board.host_open(True, rts=rts)
+        clean_board.run_ms(2)
+    clean_board.run_ms(500)
+    assert clean_board.output() == "".join(f"line {n} of a long output\r\n" for n in range(500))
+
+
+def test_terminal_without_dtr_is_there_once_it_sends(clean_board):
+    clean_board.host_open(False, rts=True)
+    clean_board.run_ms(5)
+    clean_board.output()
+    clean_board.send("l")
+    clean_board.run_ms(500)
+    assert clean_board.output() == "".join(f"line {n} of a long output\r\n" for n in range(500))
+
+
+def test_terminal_without_dtr_that_left_holds_nothing_up(clean_board):
+    clean_board.host_open(False)
+    clean_board.run_ms(5)
+    clean_board.host_reading(False)
+    clean_board.send("l")
+    clean_board.run_ms(4000)  # tries again after 2 s; then the terminal counts as gone
+    assert "line 499 of a long output\r\n" in clean_board.uart_output()
+
+
+def test_uart_says_where_input_was_lost(clean_board):
+    """Busy with printing for a second, at most 2 KB of what comes meanwhile are kept."""
+    clean_board.send_uart("l" + "." * 6000)
+    clean_board.run_ms(2000)
+    clean_board.send_uart("n")
+    clean_board.run_ms(50)
+    output = clean_board.uart_output()
+    assert output.count("input is missing\r\n") == 1
+    assert "Raspberry Pi Pico" in output
+
+
 def test_uart_answers_and_leads(clean_board):
     clean_board.send_uart("l")
     clean_board.run_ms(1500)
@@ -169,6 +209,12 @@ def test_hung_main_loop_restarts(clean_board):
 
 def test_idle_main_loop_keeps_running(clean_board):
     clean_board.run_ms(3 * WATCHDOG_MS)
+    assert clean_board.status()["resets"] == 0
+
+
+def test_main_loop_that_takes_input_is_not_hung(clean_board):
+    clean_board.send("c")
+    clean_board.expect("still here", WATCHDOG_MS + 2000)
     assert clean_board.status()["resets"] == 0
 
 

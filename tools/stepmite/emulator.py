@@ -185,9 +185,9 @@ class Emulator:
         """Off: the USB host stops collecting what the board sends."""
         self.request("host_reading", on=on)
 
-    def host_open(self, opened: bool) -> None:
-        """Set or clear DTR, as a program does that opens or closes the port."""
-        self.request("host_open", open=opened)
+    def host_open(self, opened: bool, *, rts: bool | None = None) -> None:
+        """Set or clear DTR (and RTS: the same if not said), as a program does with the port."""
+        self.request("host_open", dtr=opened, rts=opened if rts is None else rts)
 
     def host_baud(self, baud: int) -> None:
         """Set the line coding; 1200 asks many boards to restart into their boot loader."""

@@ -54,6 +54,7 @@ bool hal_console_break_is_inband(void) {
 }
 
 size_t hal_console_read(uint8_t *bytes, size_t size) {
+    rp2_fault_feed(); // who takes input is alive, even if it never comes to a statement or a pause
     size_t count = rp2_usb_read(bytes, size);
     if (count > 0) {
         usb_leads = rp2_usb_connected();
@@ -70,8 +71,10 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
 size_t hal_console_write(const uint8_t *bytes, size_t size) {
     if (usb_leads && rp2_usb_connected()) {
         size_t count = rp2_usb_write(bytes, size);
-        rp2_uart_write(bytes, count);
-        return count;
+        if (rp2_usb_connected()) { // still
+            rp2_uart_write(bytes, count);
+            return count;
+        }
     }
     size_t count = rp2_uart_running() ? rp2_uart_write(bytes, size) : size;
     if (rp2_usb_connected()) {

@@ -57,7 +57,7 @@ bool rp2_uart_has_pin(unsigned gpio);
 // ---- USB console ----------------------------------------------------------------------------------
 
 void rp2_usb_start(void);
-bool rp2_usb_connected(void); // a terminal has the port open (DTR)
+bool rp2_usb_connected(void); // a terminal has the port open
 size_t rp2_usb_read(uint8_t *bytes, size_t size);
 size_t rp2_usb_write(const uint8_t *bytes, size_t size); // takes what fits
 size_t rp2_usb_write_room(void);

@@ -17,12 +17,17 @@
 #define TX_SIZE 2048u
 #define RX_SIZE 2048u // 0.18 s of input while main is busy
 #define RX_ERROR_BITS (UART_UARTDR_BE_BITS | UART_UARTDR_PE_BITS | UART_UARTDR_FE_BITS)
+// Stands in the input where bytes were lost. No command contains it, so the line is refused: without one
+// digit it would mean something else.
+#define LOST_BYTE 0xFFu
 
 static struct {
     ring_t tx; // written by main, read by the interrupt
     ring_t rx; // written by the interrupt, read by main
     uint8_t tx_bytes[TX_SIZE];
     uint8_t rx_bytes[RX_SIZE];
+    bool in_line; // the interrupt's: the last byte was not the end of a line
+    bool gap;     // the interrupt's: something is missing here
     bool running;
 } uart;
 
@@ -35,13 +40,30 @@ static void send_from_ring(void) {
     uart_set_irq_enables(UART, true, ring_used(&uart.tx) > 0);
 }
 
+static void keep(uint8_t byte) {
+    if (ring_free(&uart.rx) == 0) {
+        uart.gap = true;
+        return;
+    }
+    uart.rx_bytes[uart.rx.put_slot] = byte;
+    ring_put(&uart.rx);
+    uart.in_line = byte != '\r' && byte != '\n';
+}
+
 static void receive_to_ring(void) {
     while (uart_is_readable(UART)) {
         uint32_t received = uart_get_hw(UART)->dr;
-        // A byte with an error is noise (an unconnected cable, another speed), not input.
-        if ((received & RX_ERROR_BITS) == 0 && ring_free(&uart.rx) > 0) {
-            uart.rx_bytes[uart.rx.put_slot] = (uint8_t)received;
-            ring_put(&uart.rx);
+        // Between two lines a byte with an error is noise (a cable being plugged in), not input.
+        bool spoiled = (received & RX_ERROR_BITS) != 0;
+        if ((spoiled && uart.in_line) || (received & UART_UARTDR_OE_BITS) != 0) {
+            uart.gap = true;
+        }
+        if (uart.gap && ring_free(&uart.rx) > 0) {
+            uart.gap = false;
+            keep(LOST_BYTE);
+        }
+        if (!spoiled) {
+            keep((uint8_t)received);
         }
     }
 }
@@ -58,6 +80,7 @@ void rp2_uart_start(void) {
     }
     ring_reset(&uart.tx, TX_SIZE);
     ring_reset(&uart.rx, RX_SIZE);
+    uart.in_line = uart.gap = false;
     uart_init(UART, BAUD);
     gpio_set_function(TX_GPIO, UART_FUNCSEL_NUM(UART, TX_GPIO));
     gpio_set_function(RX_GPIO, UART_FUNCSEL_NUM(UART, RX_GPIO));

@@ -35,7 +35,7 @@ const operations = {
         return { text };
     },
     host_reading({ on }) { board.chip.usb.setReading(on); },
-    host_open({ open }) { board.chip.usb.setLineState(open); },
+    host_open({ dtr, rts }) { board.chip.usb.setLineState(dtr, rts); },
     line_coding({ baud }) { board.chip.usb.setLineCoding(baud); },
     queued() { return { bytes: board.chip.usb.queue.length }; },
     set_pin({ gpio, level, at_ns: at = null }) {

@@ -101,7 +101,7 @@ export class UsbHost {
                 this.request(setup(0x00, 9, 1, 0, 0)); // configuration
                 if (this.port === null) return;
                 this.setLineCoding(115200);
-                this.setLineState(true, () => {
+                this.setLineState(true, true, () => {
                     this.connected = true;
                     this.onConnected();
                     this.pump();
@@ -110,8 +110,8 @@ export class UsbHost {
         });
     }
 
-    setLineState(open, then) {
-        this.request(setup(0x21, 0x22, open ? DTR | RTS : 0, this.port.control, 0), null, then);
+    setLineState(dtr, rts, then) {
+        this.request(setup(0x21, 0x22, (dtr ? DTR : 0) | (rts ? RTS : 0), this.port.control, 0), null, then);
     }
 
     setLineCoding(baud) {
