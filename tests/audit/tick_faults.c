@@ -1,4 +1,5 @@
-// For the self-test of tools/audit/tick.py: one tick without a fault, and one for each fault it has to find.
+// For the self-tests of tools/audit/tick.py and stack.py: one tick without a fault, and one for each fault
+// that they have to find.
 // Linked by tick_faults.ld; never run.
 #include <stdint.h>
 
@@ -14,6 +15,7 @@ int tick_calls_flash(int value);
 int tick_flash_table(int index);
 int tick_pointer(int value);
 int tick_recursion(int value);
+int tick_allocates(int value);
 
 volatile uint32_t pin;
 int (*volatile callback)(int);
@@ -65,4 +67,13 @@ RAM int tick_recursion(int value) {
     int below = value == 0 ? 0 : tick_recursion(value - 1);
     pin = (uint32_t)below;
     return below + 1;
+}
+
+FLASH static int allocate(int value) {
+    pin = 3;
+    return value;
+}
+
+RAM int tick_allocates(int value) {
+    return allocate(value) + 1;
 }

@@ -8,7 +8,8 @@
 #include "rp2_port.h"
 
 #define MAIN_STACK_BYTES 32768
-#define GUARD_BYTES 256 // the smallest region of the RP2040's memory protection unit
+// More than any function takes at once (tools/audit/stack.py): none can step over it.
+#define GUARD_BYTES 2048
 
 // The guard takes the lowest bytes of the stack's own memory.
 static uint8_t main_stack[MAIN_STACK_BYTES]
@@ -38,8 +39,9 @@ int __attribute__((naked)) __wrap_main(void) {
 #if PICO_RP2040
 void rp2_stack_guard(void) {
     mpu_hw->rbar = (uintptr_t)main_stack | M0PLUS_MPU_RBAR_VALID_BITS; // region 0
-    // 2^(7+1) bytes, no access.
-    mpu_hw->rasr = M0PLUS_MPU_RASR_ENABLE_BITS | (7u << M0PLUS_MPU_RASR_SIZE_LSB);
+    // 2^(10+1) bytes, no access.
+    static_assert(GUARD_BYTES == 2 << 10, "as written here");
+    mpu_hw->rasr = M0PLUS_MPU_RASR_ENABLE_BITS | (10u << M0PLUS_MPU_RASR_SIZE_LSB);
     mpu_hw->ctrl = M0PLUS_MPU_CTRL_PRIVDEFENA_BITS | M0PLUS_MPU_CTRL_ENABLE_BITS;
     __dsb();
     __isb();
