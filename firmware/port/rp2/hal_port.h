@@ -77,6 +77,8 @@ static __force_inline bool hal_tick_running(void) {
 static __force_inline void hal_tick_stop(void) {
     systick_hw->csr = 0;
     scb_hw->icsr = ARM_CPU_PREFIXED(ICSR_PENDSTCLR_BITS); // one that was due just now does not come
+    __dsb(); // not even while the stores are on their way: behind this line no tick runs
+    __isb();
     rp2_wake = true;
 }
 
