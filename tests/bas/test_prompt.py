@@ -274,8 +274,8 @@ def test_output_is_seen_while_a_program_computes():
 
 def test_ctrl_c_says_that_it_stops_the_machine():
     """With nothing to stop it says nothing."""
-    setup = "STEPPER INIT\rSTEPPER AXIS X,2,3\rSTEPPER POSITION HOME\rSTEPPER RUN\r"
-    moving = setup + "STEPPER GC G1 X100 F1200\rPAUSE 100\r"
+    setup = "STEPPER INIT\rSTEPPER AXIS X,2,3\rSTEPPER POSITION HOME\r"
+    moving = setup + "STEPPER RUN\rSTEPPER GC G1 X100 F1200\rPAUSE 100\r"
     said = "Ctrl-C: motion stops, what was queued is dropped"
     shown = answers(moving + CTRL_C + "PAUSE 500\rPRINT PEEK(STEPPER X) < 9\r" + CTRL_C)
     assert shown[-2:] == [said, " 1"]
