@@ -91,19 +91,24 @@ unsigned expressions_compile_subscripts(void) {
     return count;
 }
 
-// `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference.
-static void compile_variable(bool reference, bool arrays) {
-    lexer_token_t name = *lexer_now();
-    if (words_is_reserved(name.text, name.length)) {
-        errors_fail(ERR_SYNTAX);
-    }
+uint16_t expressions_compile_name(void) {
     uint8_t check_type;
-    uint16_t variable = names_variable(&name, &check_type);
+    uint16_t variable = names_variable(lexer_now(), &check_type);
     if (check_type != VALUE_NONE) {
         emit_variable(OP_CHECK_TYPE, variable);
         emit_byte(check_type);
     }
     lexer_next();
+    return variable;
+}
+
+// `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference.
+static void compile_variable(bool reference, bool arrays) {
+    const lexer_token_t *name = lexer_now();
+    if (words_is_reserved(name->text, name->length)) {
+        errors_fail(ERR_SYNTAX);
+    }
+    uint16_t variable = expressions_compile_name();
     if (!lexer_is('(')) {
         emit_variable(reference ? OP_REF : OP_LOAD, variable);
         return;

@@ -12,6 +12,9 @@ void expressions_compile(void);
 // An argument of a SUB or FUNCTION: a variable alone is passed by reference.
 void expressions_compile_argument(void);
 
+// The name of a variable; emits the check of its type if one is needed and returns the variable.
+uint16_t expressions_compile_name(void);
+
 // `( a, b ... )` up to and with the closing parenthesis; returns how many there were.
 unsigned expressions_compile_subscripts(void);
 

@@ -10,7 +10,6 @@
 #include "expressions.h"
 #include "lexer.h"
 #include "memory.h"
-#include "names.h"
 #include "symbols.h"
 #include "words.h"
 
@@ -73,18 +72,12 @@ const statements_row_t statements_table[] = {
 const size_t statements_count = COUNT_OF_ARRAY(statements_table);
 
 static void compile_assignment(void) {
-    lexer_token_t name = *lexer_now();
-    if (words_is_reserved(name.text, name.length) ||
-        words_find(WORDS_FUNCTION, name.text, name.length) != WORDS_NONE) {
+    const lexer_token_t *name = lexer_now();
+    if (words_is_reserved(name->text, name->length) ||
+        words_find(WORDS_FUNCTION, name->text, name->length) != WORDS_NONE) {
         errors_fail(ERR_SYNTAX);
     }
-    uint8_t check_type;
-    uint16_t variable = names_variable(&name, &check_type);
-    if (check_type != VALUE_NONE) {
-        emit_variable(OP_CHECK_TYPE, variable);
-        emit_byte(check_type);
-    }
-    lexer_next();
+    uint16_t variable = expressions_compile_name();
     if (lexer_is('(')) {
         unsigned count = expressions_compile_subscripts();
         lexer_expect('=');
