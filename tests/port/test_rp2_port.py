@@ -61,6 +61,20 @@ def test_governor_comes_at_once_and_as_one(clean_board):
     assert [int(n) for n in clean_board.expect(r"from tick (\d+) (\d+)")[1:]] == [0, 1]
 
 
+def test_priorities_are_tick_then_the_rest_then_governor(clean_board):
+    def priority(base: int, n: int) -> int:
+        return clean_board.peek(base + n // 4 * 4) >> n % 4 * 8 & 0xFF
+
+    timer3, usb, uart0, governor, usb_worker = 3, 5, 20, 26, 27
+    enabled = clean_board.peek(0xE000E100)
+    for irq in (timer3, usb, uart0, governor, usb_worker):
+        assert enabled >> irq & 1, irq
+    assert priority(0xE000ED20, 3) == 0  # SysTick
+    for irq in range(32):
+        if enabled >> irq & 1:
+            assert priority(0xE000E400, irq) == (0xC0 if irq == governor else 0x80), irq
+
+
 def test_idle_keeps_its_deadline(clean_board):
     took_us, returns, hundredths_late = ask(clean_board, "i", "idle")
     assert 5000 <= took_us < 5050

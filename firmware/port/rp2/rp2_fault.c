@@ -1,6 +1,7 @@
 // What must never happen: processor faults, the SDK's panic, and a main loop that hangs. Each restarts the
-// board at once - its pins float, so every motor driver with a pull-up on its enable pin lets go - and
-// the next start tells why. The reason survives in the watchdog's scratch registers.
+// board at once, and the next start tells why. After a restart the pins are inputs with the chip's weak
+// pull-down, so a motor driver lets go if a resistor pulls its enable pin up (10 kOhm is strong enough).
+// The reason survives in the watchdog's scratch registers.
 // Context: any, except where said.
 #include "hal/hal.h"
 
