@@ -11,7 +11,8 @@
 #define PINS_COUNT 30   // GP0..GP29
 #define PINS_NONE 0xFFu // no pin assigned
 
-// True for a GPIO a user may have: on the header, or GP25 (the board's LED).
+// True for a GPIO a user may have: on the header, or GP25 (the board's LED; on a Pico W the chip select of
+// the radio, which stays without power as GP23, its switch, cannot be had: no harm, but no light either).
 bool pins_is_user(unsigned gpio);
 
 // Number on the 40-pin header, 0 if it is not there (GP23..25, 29).
