@@ -48,6 +48,7 @@ static struct {
     bool too_long;
     bool skip_line_feed; // the last line ended with a carriage return
     bool active;
+    bool at_margin;
     unsigned age; // lines back in the history, 0: the line being typed
 } editor;
 
@@ -58,27 +59,70 @@ void line_editor_start(void) {
 
 // ---- Screen --------------------------------------------------------------------------------------
 
-static void move_left(size_t columns) {
-    if (columns == 0) {
-        return;
-    }
-    char sequence[16];
-    snprintf(sequence, sizeof sequence, "\x1b[%uD", (unsigned)columns);
-    console_print(columns == 1 ? "\b" : sequence);
+// Cells are counted from the start of the prompt, rows below each other. A terminal that has filled the
+// last cell of a row stays there until the next character comes: that is at_margin.
+static size_t cell_of(size_t place) {
+    return strlen(editor.options->prompt) + place;
 }
 
-// Draws the line from `from` on and leaves the screen's cursor at editor.cursor.
+static size_t row_of_cursor(size_t place) {
+    return cell_of(place) / SCREEN_WIDTH - (editor.at_margin ? 1 : 0);
+}
+
+static void write_line(size_t from, size_t to) {
+    if (to > from) {
+        console_write(editor.line + from, to - from);
+        editor.at_margin = cell_of(to) % SCREEN_WIDTH == 0;
+    }
+}
+
+static void print_sequence(size_t count, char letter) {
+    char sequence[16];
+    snprintf(sequence, sizeof sequence, "\x1b[%u%c", (unsigned)count, letter);
+    console_print(sequence);
+}
+
+// The screen's cursor from one place of the line to an earlier one.
+static void move_back(size_t from, size_t to) {
+    size_t rows = row_of_cursor(from) - cell_of(to) / SCREEN_WIDTH;
+    bool same_row = rows == 0 && !editor.at_margin;
+    editor.at_margin = editor.at_margin && from == to;
+    if (from == to) {
+        return;
+    }
+    if (same_row) {
+        if (from - to == 1) {
+            console_print("\b");
+        } else {
+            print_sequence(from - to, 'D');
+        }
+        return;
+    }
+    if (rows > 0) {
+        print_sequence(rows, 'A');
+    }
+    console_print("\r");
+    if (cell_of(to) % SCREEN_WIDTH > 0) {
+        print_sequence(cell_of(to) % SCREEN_WIDTH, 'C');
+    }
+}
+
+// Draws the line from `from` on, where the screen's cursor is, and leaves it at editor.cursor.
 static void draw_from(size_t from) {
-    console_write(editor.line + from, editor.length - from);
-    console_print("\x1b[K");
-    move_left(editor.length - editor.cursor);
+    write_line(from, editor.length);
+    if (editor.at_margin) { // erasing here would take the last character
+        console_print(" \b");
+        editor.at_margin = false;
+    }
+    console_print("\x1b[J");
+    move_back(editor.length, editor.cursor);
 }
 
 static void set_cursor(size_t place) {
     if (place < editor.cursor) {
-        move_left(editor.cursor - place);
+        move_back(editor.cursor, place);
     } else {
-        console_write(editor.line + editor.cursor, place - editor.cursor);
+        write_line(editor.cursor, place);
     }
     editor.cursor = place;
 }
@@ -87,18 +131,19 @@ bool line_editor_hide(void) {
     if (!editor.active) {
         return false;
     }
-    size_t rows = (strlen(editor.options->prompt) + editor.cursor) / SCREEN_WIDTH;
-    while (rows-- > 0) {
-        console_print("\x1b[A");
+    size_t rows = row_of_cursor(editor.cursor);
+    if (rows > 0) {
+        print_sequence(rows, 'A');
     }
     console_print("\r\x1b[J");
+    editor.at_margin = false;
     return true;
 }
 
 void line_editor_show(void) {
     console_print(editor.options->prompt);
-    console_write(editor.line, editor.length);
-    move_left(editor.length - editor.cursor);
+    write_line(0, editor.length);
+    move_back(editor.length, editor.cursor);
     console_flush();
 }
 
@@ -224,7 +269,7 @@ static void insert(char c) {
     }
     editor.line[editor.cursor++] = c;
     if (editor.cursor == editor.length) {
-        console_write(&c, 1);
+        write_line(editor.cursor - 1, editor.cursor);
     } else {
         draw_from(editor.cursor - 1);
     }
@@ -304,6 +349,9 @@ static void edit(int key) {
 }
 
 static line_editor_result_t finish(line_editor_result_t result) {
+    if (editor.cursor < editor.length && cell_of(editor.length) > SCREEN_WIDTH) {
+        set_cursor(editor.length); // what comes next must not stand on the line's lower rows
+    }
     console_new_line();
     editor.active = false;
     editor.line[editor.length] = '\0';
@@ -321,7 +369,7 @@ line_editor_result_t line_editor_read(const line_editor_options_t *options, cons
     editor.options = options;
     editor.length = editor.cursor = 0;
     editor.age = 0;
-    editor.overwrite = editor.too_long = false;
+    editor.overwrite = editor.too_long = editor.at_margin = false;
     editor.active = true;
     console_print(options->prompt);
     line_editor_result_t result;

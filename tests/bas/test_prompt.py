@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 from pathlib import Path
+from random import Random
 
 import pytest
 
 PROGRAM = os.environ.get("STEPMITE", str(Path(__file__).parents[2] / "build/host/stepmite"))
 TIMEOUT_S = 20
-CTRL_C, CTRL_U, CTRL_Z = "\x03", "\x15", "\x1a"
+CTRL_C, CTRL_U, CTRL_Z, BACKSPACE = "\x03", "\x15", "\x1a", "\x7f"
 UP, DOWN, RIGHT, LEFT = (f"\x1b[{letter}" for letter in "ABCD")
 HOME, INSERT, DELETE, END = (f"\x1b[{number}~" for number in "1234")
 
@@ -280,3 +282,79 @@ def test_ctrl_c_says_that_it_stops_the_machine():
     shown = answers(moving + CTRL_C + "PAUSE 500\rPRINT PEEK(STEPPER X) < 9\r" + CTRL_C)
     assert shown[-2:] == [said, " 1"]
     assert said not in answers(setup + CTRL_C)
+
+
+WIDTH = 80
+
+
+def screen(shown: str) -> list[str]:
+    """The rows of an 80 column terminal that was sent `shown`; the next letter wraps a full row."""
+    rows, row, column = [[]], 0, 0
+    for part in re.findall(r"\x1b\[(?:\d*)[A-Z]|.", shown, re.DOTALL):
+        count = int(re.sub(r"\D", "", part[1:]) or 1) if len(part) > 1 else 1
+        if part in "\r\n\b":
+            row += part == "\n"
+            column = {"\r": 0, "\b": min(column, WIDTH - 1) - 1}.get(part, column)
+        elif len(part) > 1 and part[-1] == "J":
+            assert column < WIDTH, "erases the last character of a full row"
+            rows[row:] = [rows[row][:column]]
+        elif len(part) > 1:
+            row -= count if part[-1] == "A" else 0
+            column = min(column, WIDTH - 1) + {"A": 0, "C": count, "D": -count}[part[-1]]
+            assert row >= 0
+            assert 0 <= column < WIDTH
+        else:
+            row, column = (row + 1, 0) if column == WIDTH else (row, column)
+            rows += [[] for _ in range(row + 1 - len(rows))]
+            rows[row] += " " * (column - len(rows[row]))
+            rows[row][column : column + 1] = part
+            column += 1
+        rows += [[] for _ in range(row + 1 - len(rows))]
+    return ["".join(row).rstrip() for row in rows]
+
+
+def edited(keys: list[str]) -> str:
+    """The line that keys make."""
+    line, cursor = "", 0
+    for key in keys:
+        if key == LEFT:
+            cursor = max(cursor - 1, 0)
+        elif key == RIGHT:
+            cursor = min(cursor + 1, len(line))
+        elif key in (HOME, END):
+            cursor = 0 if key == HOME else len(line)
+        elif key == DELETE:
+            line = line[:cursor] + line[cursor + 1 :]
+        elif key == BACKSPACE:
+            line = line[: max(cursor - 1, 0)] + line[cursor:]
+            cursor = max(cursor - 1, 0)
+        elif key == CTRL_U:
+            line, cursor = "", 0
+        else:
+            line = line[:cursor] + key + line[cursor:]
+            cursor += 1
+    return line
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_line_of_several_rows_is_shown_as_it_is(seed):
+    random = Random(seed)
+    keys = ["'"] + ["abcdefgh"[i % 8] for i in range(random.choice([20, 76, 77, 78, 156, 157]))]
+    for _ in range(30):
+        key = random.choice([LEFT, RIGHT, HOME, END, DELETE, BACKSPACE, "z", CTRL_U, UP])
+        if key in (CTRL_U, UP):  # a whole line goes, or comes back from the history
+            keys += [CTRL_U] + ["'"] + ["y"] * random.choice([5, 77, 78, 100])
+        else:
+            keys += [key] * random.choice([1, 1, 2, 79, 80] if key != "z" else [1, 2])
+    line = "> " + edited(keys)
+    rows = [line[i : i + WIDTH].rstrip() for i in range(0, len(line), WIDTH)]
+    shown = screen(session("".join(keys) + "\r"))
+    assert shown[: len(rows)] == rows
+    assert shown[len(rows)].startswith((">", "Error"))
+
+
+def test_a_long_line_of_the_history_gives_way_to_a_short_one():
+    first, second = "'" + "x" * 200, "' short"
+    shown = screen(session(f"{second}\r{first}\r{UP}{UP}\r"))
+    assert shown[-2:] == ["> " + second, ">"]
+    assert len(shown) == 1 + 3 + 1 + 1
