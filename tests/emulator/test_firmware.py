@@ -33,6 +33,19 @@ def test_idle_board_sleeps_without_a_tick(board: Emulator) -> None:
     assert busy < 0.01 * 500 * 125_000
 
 
+def test_heap_of_the_c_library_stays_below_what_is_reserved(board: Emulator) -> None:
+    """The firmware allocates nothing; newlib does for numbers that are long or far from 1."""
+    for line in [
+        "PRINT 1.7976931348623157e308, 1e-300",
+        'N$="0."+STRING$(240,"7")',
+        'PRINT VAL(N$+"e308"), VAL(N$+"e-300"), VAL(STRING$(250,"7"))',
+        'PRINT FORMAT$(1e-300,"%128.120f"), FORMAT$(1e90,"%120.30f")',
+    ]:
+        assert "rror" not in board.command(line)
+    # Without the up to 4 KB that align its first page, which another image would have elsewhere.
+    assert 0 < board.peek("__malloc_max_sbrked_mem") <= 0x3000 - 4096
+
+
 def test_host_that_does_not_read_does_not_stop_motion(board: Emulator) -> None:
     """Output waits for the host, and nothing of it is lost; the motors do not wait."""
     set_up(board)
