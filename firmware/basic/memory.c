@@ -31,11 +31,26 @@ void memory_start(void *arena, size_t size) {
 
 void memory_reset(uint8_t *floor) {
     memory.heap = align_up(floor);
-    memory.scratch = memory.top;
+    memory.scratch = memory.ceiling = memory.top;
 }
 
-void memory_reset_heap(void) {
+void memory_settle(void) {
     memory.heap = align_up(memory.heap);
+    if (memory_free() < MEMORY_PROMPT_RESERVE) {
+        errors_fail(ERR_NO_MEMORY);
+    }
+    memory.ceiling = memory.scratch - MEMORY_PROMPT_RESERVE;
+}
+
+// Takes `size` bytes of the heap.
+static uint8_t *take_heap(size_t size) {
+    size_t room = memory_free();
+    uint8_t *place = memory.heap;
+    if (size > room || size + ALIGNMENT > room || place + size + ALIGNMENT > memory.ceiling) {
+        errors_fail(ERR_NO_MEMORY);
+    }
+    memory.heap = align_up(place + size);
+    return place;
 }
 
 size_t memory_free(void) {
@@ -43,12 +58,7 @@ size_t memory_free(void) {
 }
 
 void *memory_heap(size_t size) {
-    size_t room = memory_free();
-    if (size > room || size + ALIGNMENT > room) {
-        errors_fail(ERR_NO_MEMORY);
-    }
-    uint8_t *place = memory.heap;
-    memory.heap = align_up(place + size);
+    uint8_t *place = take_heap(size);
     memset(place, 0, size);
     return place;
 }
@@ -66,12 +76,7 @@ void *memory_scratch(size_t size) {
 }
 
 char *memory_heap_text(size_t size) {
-    if (size + ALIGNMENT > memory_free()) {
-        errors_fail(ERR_NO_MEMORY);
-    }
-    uint8_t *place = memory.heap;
-    memory.heap = align_up(place + size);
-    return (char *)place;
+    return (char *)take_heap(size);
 }
 
 char *memory_text(size_t size) {

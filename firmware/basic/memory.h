@@ -20,6 +20,7 @@ typedef struct {
     uint8_t *heap;         // next byte of the heap
     uint8_t *scratch;      // lowest byte of the scratch
     uint8_t *top;          // end of the arena
+    uint8_t *ceiling;      // the heap ends below: what is above is left for the prompt
     value_t *values;       // the stack
     value_t *values_limit; // one behind its last place
 } memory_t;
@@ -32,8 +33,13 @@ void memory_start(void *arena, size_t size);
 // Forgets everything above `floor` (within the arena; rounded up) and the whole scratch.
 void memory_reset(uint8_t *floor);
 
-// Aligns the heap after code was written to it.
-void memory_reset_heap(void);
+// Room above the heap that a program cannot use up, or nothing could be typed any more, not even
+// NEW or STEPPER ESTOP: the code of a line and some texts.
+#define MEMORY_PROMPT_RESERVE 4096u
+
+// The program is compiled: aligns the heap behind its code, and sets the reserve aside below its
+// names. Error: there is no room for it.
+void memory_settle(void);
 
 // Zeroed, 8-aligned. Error: not enough memory.
 void *memory_heap(size_t size);

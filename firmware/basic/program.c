@@ -8,7 +8,8 @@
 #include "memory.h"
 #include "vm.h"
 
-#define FREE_AFTER_TEXT 2048u // room a program needs besides its text, at the very least
+#define FREE_AFTER_TEXT                                                                            \
+    (2048u + MEMORY_PROMPT_RESERVE) // room a program needs besides its text, at the very least
 
 static struct {
     size_t length;
@@ -27,7 +28,7 @@ static void compile(void) {
     vm_reset();
     memory_reset(memory.floor + program.length);
     program.code = compiler_program(program_text(), program.length);
-    memory_reset_heap();
+    memory_settle();
 }
 
 static err_t try_compile(void) {
