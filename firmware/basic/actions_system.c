@@ -151,8 +151,9 @@ static bool page_turned(void) {
     while ((key = console_take()) < 0 && !console_break_pending() && !hal_end_of_input()) {
         console_wait(UINT64_MAX);
     }
-    console_print("\r\x1b[K");
-    return key >= 0 && !console_break_pending() && (key | 0x20) != 'q';
+    bool go_on = key >= 0 && !console_break_pending() && (key | 0x20) != 'q';
+    console_print(go_on ? "\r\x1b[K" : "\r\n"); // the prompt always starts a line
+    return go_on;
 }
 
 ACTION_BODY(list) {

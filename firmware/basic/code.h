@@ -27,12 +27,12 @@ typedef enum {
     OP_LOAD_ELEMENT,  // v n subscripts on the stack
     OP_STORE,         // v
     OP_STORE_ELEMENT, // v n; the value on top of the subscripts
-    OP_KEEP,          // v: stores into a hidden variable, whatever the type
-    OP_REF,           // v: a reference to the variable
-    OP_REF_ELEMENT,   // v n
-    OP_REF_ARRAY,     // v
-    OP_CHECK_TYPE,    // v n: the variable, if it exists, must have this type
-    OP_ADD,           // the two-operand instructions, in the order of arith_binary()
+    OP_KEEP, // v: stores into a hidden variable, whatever the type; the one behind owns a text
+    OP_REF,  // v: a reference to the variable
+    OP_REF_ELEMENT, // v n
+    OP_REF_ARRAY,   // v
+    OP_CHECK_TYPE,  // v n: the variable, if it exists, must have this type
+    OP_ADD,         // the two-operand instructions, in the order of arith_binary()
     OP_SUBTRACT,
     OP_MULTIPLY,
     OP_DIVIDE,

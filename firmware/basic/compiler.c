@@ -18,6 +18,7 @@
 #include "words.h"
 
 #define LINE_MAX 255
+#define STATEMENT_SIZE 5    // OP_STATEMENT with its operands
 #define LINE_CODE_SIZE 2560 // a line of 255 characters; longer code is "too complex"
 #define LINE_NUMBER_DIGITS 5
 
@@ -46,6 +47,15 @@ static void begin_statement(void) {
 
 static void end_statement(uint32_t statement) {
     emit_set_u16(statement + 3, emit_here() - statement);
+}
+
+uint32_t compiler_begin_statement(void) {
+    begin_statement();
+    return compiler.statement;
+}
+
+void compiler_end_statement(uint32_t start) {
+    end_statement(start);
 }
 
 void compiler_new_statement(void) {
@@ -78,20 +88,40 @@ void compiler_link_data(void) {
 
 // ---- Statements ----------------------------------------------------------------------------------
 
-void compiler_spoil(uint32_t place, int code) {
-    uint32_t size = code_u16(memory.base + place + 3);
-    unsigned line = code_u16(memory.base + place + 1);
-    uint32_t over = 0;
-    emit_jump(OP_JUMP, &over); // whoever comes along here goes on behind
-    uint32_t stub = emit_here();
+// A statement of this line that fails.
+static uint32_t emit_failing(unsigned line, int code) {
+    uint32_t start = emit_here();
     emit_op(OP_STATEMENT);
     emit_u16(line);
     emit_u16(0);
     emit_stub((err_t)code);
-    end_statement(stub);
+    end_statement(start);
+    return start;
+}
+
+void compiler_spoil(uint32_t place, int code) {
+    uint32_t size = code_u16(memory.base + place + 3);
+    uint32_t over = 0;
+    emit_jump(OP_JUMP, &over); // whoever comes along here goes on behind
+    uint32_t stub = emit_failing(code_u16(memory.base + place + 1), code);
     emit_jump_to(OP_JUMP, place + size);
     emit_set_jump(place, stub);
     emit_patch(&over);
+}
+
+uint32_t compiler_spoil_routine(uint32_t place, int code) {
+    unsigned line = code_u16(memory.base + place + 1);
+    uint32_t over = 0;
+    emit_jump(OP_JUMP, &over);
+    uint32_t flow = emit_failing(line, code);
+    emit_jump_to(OP_JUMP, place + STATEMENT_SIZE); // where the way around the routine starts
+    uint32_t call = emit_failing(line, code);
+    uint32_t leave = compiler_begin_statement();
+    emit_op(OP_LEAVE);
+    end_statement(leave);
+    emit_set_jump(place, flow);
+    emit_patch(&over);
+    return call;
 }
 
 static void compile_words(void) {

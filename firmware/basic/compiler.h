@@ -26,6 +26,10 @@ bool compiler_at_prompt(void);
 // Where the statement being compiled starts.
 uint32_t compiler_statement_start(void);
 
+// For code that no source statement stands for: returns its start, which the end needs.
+uint32_t compiler_begin_statement(void);
+void compiler_end_statement(uint32_t start);
+
 // Ends the statement and starts another one, for those that jump before they compute.
 void compiler_new_statement(void);
 
@@ -34,5 +38,9 @@ void compiler_link_data(void);
 
 // Makes the statement that starts at `place` raise this error, because its block was never closed.
 void compiler_spoil(uint32_t place, int code);
+
+// The same for a SUB or FUNCTION: the program goes on behind it, and a call of it, which is to start at
+// the place returned, meets the error and comes back.
+uint32_t compiler_spoil_routine(uint32_t place, int code);
 
 #endif

@@ -209,7 +209,7 @@ static void compile_prefix_operator(code_op_t op) {
     if (op == OP_NEGATE && lexer_now()->kind == LEXER_NUMBER) {
         value_t value = lexer_now()->value;
         if (value.type == VALUE_INTEGER) {
-            value.integer = -value.integer;
+            value.integer = (int64_t)(0 - (uint64_t)value.integer);
         } else {
             value.number = -value.number;
         }

@@ -248,7 +248,7 @@ void statements_select(void) {
     lexer_expect_word("CASE");
     expressions_compile();
     blocks_t *block = blocks_open(BLOCKS_SELECT);
-    block->hidden = names_hidden(1);
+    block->hidden = names_hidden(2);
     emit_variable(OP_KEEP, block->hidden);
     emit_jump(OP_JUMP, &block->next_case);
 }

@@ -124,9 +124,10 @@ void statements_abandon_routine(void) {
     blocks_t *block = blocks_top(BLOCKS_ROUTINE);
     symbols_routine_t *routine = names_routine()->routine;
     uint32_t opening = block->opening;
+    uint32_t leave = compiler_begin_statement(); // or ON ERROR would come back to it for ever
     close_routine(block);
-    routine->code = opening; // a call meets the error as well
-    compiler_spoil(opening, ERR_NO_END_SUB);
+    compiler_end_statement(leave);
+    routine->code = compiler_spoil_routine(opening, ERR_NO_END_SUB);
 }
 
 void statements_local(void) {

@@ -31,19 +31,32 @@ static void *allocate(uint16_t variable, size_t size) {
     return place;
 }
 
-void variables_make_string(uint16_t variable, unsigned capacity) {
+static char *allocate_text(bool passing, unsigned capacity) {
     char *bytes;
-    if (is_local(variable)) {
+    if (passing) {
         bytes = memory_text(capacity + 1);
         vm.scratch_base = memory.scratch;
     } else {
         bytes = memory_heap_text(capacity + 1);
     }
     bytes[0] = '\0';
+    return bytes;
+}
+
+void variables_make_string(uint16_t variable, unsigned capacity) {
+    char *bytes = allocate_text(is_local(variable), capacity);
     value_t *slot = variables_slot(variable);
     slot->data = bytes;
     slot->capacity = (uint16_t)capacity;
     slot->type = VALUE_STRING_REF;
+}
+
+void variables_make_hidden_string(uint16_t variable, value_t *place) {
+    bool at_prompt = vm_line() == 0;
+    place->data = allocate_text(is_local(variable) || at_prompt, VALUE_STRING_MAX);
+    place->capacity = VALUE_STRING_MAX;
+    place->flags = 0;
+    place->type = VALUE_STRING_REF;
 }
 
 static void make_scalar(uint16_t variable, uint8_t type, unsigned capacity) {
@@ -143,14 +156,15 @@ void variables_element(uint16_t variable, const value_t *subscripts, unsigned co
     }
     uint32_t index = 0;
     for (unsigned i = count; i-- > 0;) {
-        int64_t subscript = value_to_integer(&subscripts[i]) - array->base;
-        if (subscript < 0) {
+        int64_t subscript = value_to_integer(&subscripts[i]);
+        if (subscript < array->base) {
             errors_fail(ERR_DIMENSIONS);
         }
-        if (subscript >= array->extent[i]) {
+        uint64_t place = (uint64_t)subscript - array->base;
+        if (place >= array->extent[i]) {
             errors_fail(ERR_INDEX_OUT_OF_BOUNDS);
         }
-        index = index * array->extent[i] + (uint32_t)subscript;
+        index = index * array->extent[i] + (uint32_t)place;
     }
     variables_nth(array, index, out);
 }
@@ -228,6 +242,7 @@ static bool renew_local(const value_t *slot, const variables_array_t *shape) {
             array->capacity == shape->capacity) {
             size_t size = array->type == VALUE_STRING ? array->capacity + 1u : sizeof(int64_t);
             memset(array->elements, 0, array->count * size);
+            memcpy(array->extent, shape->extent, sizeof array->extent);
             return true;
         }
     }

@@ -59,6 +59,9 @@ void variables_declare(uint16_t variable, uint8_t type, unsigned capacity, const
 // Gives a variable an empty string of its own.
 void variables_make_string(uint16_t variable, unsigned capacity);
 
+// The same for a hidden place. At the prompt it lives no longer than the line.
+void variables_make_hidden_string(uint16_t variable, value_t *place);
+
 // The name in capitals for an error message.
 const char *variables_name(uint16_t variable);
 

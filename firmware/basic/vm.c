@@ -147,15 +147,15 @@ static inline bool for_next(uint16_t variable, const value_t *pair) {
 static void keep(uint16_t variable, const value_t *value) {
     value_t *slot = variables_slot(variable);
     if (value->type == VALUE_STRING) {
-        if (slot->capacity == 0) {
-            variables_make_string(variable, VALUE_STRING_MAX);
+        value_t *text = slot + 1;
+        if (text->type != VALUE_STRING_REF) {
+            variables_make_hidden_string(variable, text);
         }
-        slot->type = VALUE_STRING_REF;
-        value_write(slot, value);
+        value_write(text, value);
+        *slot = *text;
         return;
     }
-    slot->type = value->type; // `data` of a former string is lost with it: give it up
-    slot->capacity = 0;
+    slot->type = value->type;
     slot->integer = value->integer;
 }
 
@@ -406,6 +406,7 @@ err_t vm_run(const uint8_t *code, bool *broken) {
         if (outcome == ERRORS_NONE) {
             return ERR_OK;
         }
+        console_poll(); // no chain of errors may hide Ctrl-C
         if (console_break_pending()) {
             *broken = true;
             return ERR_OK;

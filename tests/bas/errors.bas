@@ -99,3 +99,10 @@ RUN '>@@@
 NEW '! Only at the prompt
 '--- OPTION BASE out of range
 OPTION BASE 2 '! 2 is invalid (valid is 0 to 1)
+'--- a FUNCTION without its end, under IGNORE
+ON ERROR IGNORE
+PRINT 1 '> 1
+a = f(1)
+PRINT 2; MM.ERRMSG$ '> 2Cannot find a matching END SUB or END FUNCTION
+FUNCTION f(x)
+  PRINT "never"

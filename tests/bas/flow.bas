@@ -226,3 +226,24 @@ FOR h=1 TO 1:FOR i=1 TO 1:FOR j=1 TO 1:FOR k=1 TO 1:FOR l=1 TO 1:FOR m=1 TO 1:FO
 FOR o=1 TO 1:FOR p=1 TO 1:FOR q=1 TO 1:FOR r=1 TO 1:FOR s=1 TO 1:FOR t=1 TO 1
 PRINT "20 deep" '>20 deep
 NEXT t,s,r,q,p,o,n,m,l,k,j,i,h,g,f,e,d,c,b,a
+'--- SELECT CASE of a text range
+FOR i = 1 TO 400
+  SELECT CASE CHOICE(i MOD 2, "m", "z")
+    CASE "a" TO "n"
+      n = n + 1
+  END SELECT
+  i = i + 1
+NEXT
+PRINT n '> 200
+'--- ON n beyond the list goes on
+ON 0 GOTO a
+ON 2 GOSUB a
+PRINT "on" '>on
+END
+a: PRINT "a"
+'--- EXIT FUNCTION outside
+EXIT FUNCTION '! Nothing to return to
+'--- END SUB alone
+END SUB '! Nothing to return to
+'--- ELSE alone
+ELSE '! ELSE without a matching IF

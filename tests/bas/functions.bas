@@ -95,3 +95,13 @@ PRINT LEN(5) '! Expected a string
 PRINT SIN("x") '! Expected a number
 '--- a function's name is no variable
 LEN = 5 '! Invalid syntax
+'--- digits are a minimum
+PRINT BIN$(5, 2); HEX$(255, 1) '>101FF
+'--- LEFT$ of less than nothing
+PRINT LEFT$("abc", -1) '! -1 is invalid (valid is 0 to 255)
+'--- a text longer than there are
+PRINT SPACE$(256) '! 256 is invalid (valid is 0 to 255)
+'--- MAX of a text
+PRINT MAX("a", 1) '! Expected a number
+'--- CINT beyond 64 bits
+PRINT CINT(1e30) '! Number too large

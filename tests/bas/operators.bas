@@ -77,3 +77,13 @@ PRINT (1 + 2 '! Invalid syntax
 PRINT ((((((((((1)))))))))) '> 1
 '--- nested too deep
 PRINT ((((((((((((((((((((((((((((((((((((((((((1)))))))))))))))))))))))))))))))))))))))))) '! Expression too complex
+'--- the most negative integer has no opposite
+PRINT -&H8000000000000000; ABS(&H8000000000000000) '>-9223372036854775808-9223372036854775808
+'--- no real root
+PRINT (-8) ^ (1 / 3) '! Overflow
+'--- zero to a negative power
+PRINT 0 ^ -1 '! Divide by zero
+'--- XOR, OR and AND are equal and go left to right
+PRINT 1 OR 2 XOR 3 AND 1 '> 0
+'--- a wrong type beside AND
+PRINT "a" AND 1 '! Incompatible types in expression

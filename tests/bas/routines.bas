@@ -247,3 +247,22 @@ x = f(1) : PRINT x : PRINT 1/0 '! Divide by zero
 FUNCTION f(n)
   f = n
 END FUNCTION '> 1
+'--- LOCAL array of another shape in the same memory
+s
+SUB s
+  LOCAL k
+  FOR k = 2 TO 3
+    LOCAL a(k, 5 - k)
+    a(k, 5 - k) = k : PRINT a(k, 5 - k); BOUND(a(), 1)
+  NEXT
+END SUB
+'> 2 2
+'> 3 3
+'--- FUNCTIONs call each other 60 deep
+PRINT even(60); even(59) '> 1 0
+FUNCTION even(n)
+  IF n = 0 THEN even = 1 ELSE even = odd(n - 1)
+END FUNCTION
+FUNCTION odd(n)
+  IF n = 0 THEN odd = 0 ELSE odd = even(n - 1)
+END FUNCTION

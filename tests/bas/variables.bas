@@ -113,3 +113,28 @@ DIM a(1) = (1, 2, 3) '! Array size
 a123456789012345678901234567890123 = 1 '! Name too long
 '--- a reserved word is no variable
 THEN = 5 '! Invalid syntax
+'--- the most negative subscript
+OPTION BASE 1
+DIM a(3)
+PRINT a(&H8000000000000000) '! Dimensions
+'--- six dimensions
+DIM a(2,2,2,2,2,2)
+a(2,1,2,1,2,1) = 5
+PRINT a(2,1,2,1,2,1); a(1,2,1,2,1,2) '> 5 0
+'--- seven dimensions
+DIM a(2,2,2,2,2,2,2) '! Array dimensions
+'--- a name of 32 characters
+abcdefghijklmnopqrstuvwxyzabcdef = 5
+PRINT ABCDEFGHIJKLMNOPQRSTUVWXYZABCDEF '> 5
+'--- OPTION DEFAULT STRING
+OPTION DEFAULT STRING
+a = "x" : PRINT a '>x
+'--- a CONST takes the name of a variable
+DIM c = 1
+CONST c = 2 '! C Global variable already declared
+'--- an array without its subscripts
+DIM a(3)
+a = 5 '! Array dimensions
+'--- EXPLICIT covers reading too
+OPTION EXPLICIT
+PRINT y '! Y is not declared
