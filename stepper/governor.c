@@ -143,10 +143,10 @@ static float pass_end(float left, float v1, float dt, float exit_speed2) {
     return ticks;
 }
 
-// One slice of a move, through as many blocks as it touches.
+// One slice of a move, through as many blocks as it touches and the segment ring has room for.
 static void advance_move(void) {
     float ticks = SLICE_TICKS;
-    while (ticks >= 1.0f) {
+    while (ticks >= 1.0f && segment_writer_has_room()) {
         float dt = ticks * TICK_S;
         float left = remaining();
         float exit_speed2 = planner_exit_speed2();

@@ -12,7 +12,7 @@
 #define RATE_MAX ((uint32_t)1 << 31) // a step in every second tick
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis round.
 #define NO_DISTANCE ((int64_t)1 << 20)
-#define ROOM 8 // segments: a slice writes at most two for its own end and two for each block in it
+#define ROOM 4 // segments: one call writes up to three
 
 static struct {
     int64_t position[AXIS_COUNT]; // 2^-32 steps, end of the last segment
@@ -158,9 +158,13 @@ void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, bool at_
     uint32_t whole = due >= 1.5f ? (uint32_t)(due + 0.5f) : 1;
     writer.late_ticks = due - (float)whole;
 
-    // An axis that turns round gets a tick for its direction pin before the first step.
+    // An axis that turns round stands for two ticks, and its direction pin changes between them: as
+    // far from the end of the last pulse as from the next.
     uint32_t reversing = reversing_axes(target);
     if (reversing != 0) {
+        write_way(target, 1, whole, reversing);
+        ring_put(&segments.ring);
+        whole -= whole > 1;
         writer.negative ^= reversing;
         segment_t *turn = write_way(target, 1, whole, reversing);
         switch_directions(turn, reversing);

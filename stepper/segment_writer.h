@@ -25,7 +25,7 @@ void segment_writer_end_steps(int32_t steps[AXIS_COUNT]);
 // Takes the motor position as the exact position, after a stop between two steps.
 void segment_writer_settle(void);
 
-// Ticks in the ring; room for what one call of the functions above can write, and some more.
+// Ticks in the ring; room for what one call of the functions above can write.
 uint32_t segment_writer_ahead_ticks(void);
 bool segment_writer_has_room(void);
 

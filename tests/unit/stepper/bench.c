@@ -22,6 +22,10 @@ static void watch(void *state, uint64_t time_ns, uint32_t changed, uint32_t leve
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if (changed & pins_mask(standard[axis].dir_gpio)) {
             last_dir_ns[axis] = time_ns;
+            uint64_t hold = time_ns - last_step_ns[axis];
+            if (last_step_ns[axis] != 0 && hold < bench.min_dir_hold_ns) {
+                bench.min_dir_hold_ns = hold;
+            }
         }
         if ((changed & levels & pins_mask(standard[axis].step_gpio)) == 0) {
             continue;
@@ -68,7 +72,7 @@ static void start(const stepper_axis_t configs[AXIS_COUNT], uint32_t blocks, boo
     TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
     TEST_ASSERT_EQUAL(ERR_OK, stepper_run(STEPPER_IDLE_HOLD));
     bench_wait_us(1000);
-    bench.min_step_gap_ns = bench.min_dir_setup_ns = UINT64_MAX;
+    bench.min_step_gap_ns = bench.min_dir_setup_ns = bench.min_dir_hold_ns = UINT64_MAX;
     memset(last_step_ns, 0, sizeof last_step_ns);
     memset(last_dir_ns, 0, sizeof last_dir_ns);
 }

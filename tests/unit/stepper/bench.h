@@ -13,6 +13,7 @@ typedef struct {
     simulate_axis_t motors[AXIS_COUNT];
     uint64_t min_step_gap_ns;  // between two steps of one axis
     uint64_t min_dir_setup_ns; // from a direction edge to the next step of the axis
+    uint64_t min_dir_hold_ns;  // from a step to the next direction edge of the axis
     uint64_t last_step_ns;     // of any axis
 } bench_t;
 

@@ -39,6 +39,7 @@ static void test_random_moves_end_exactly(void) {
     check_at(to[0], to[1], to[2], to[3]);
     TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, bench.min_step_gap_ns);
     TEST_ASSERT_GREATER_OR_EQUAL_UINT64(10000, bench.min_dir_setup_ns);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, bench.min_dir_hold_ns);
     bench_end();
 }
 
@@ -86,6 +87,27 @@ static void test_circle_of_chords_keeps_its_feed(void) {
     }
     TEST_ASSERT_DOUBLE_WITHIN(0.02, 2.613, bench_finish(10));
     bench_end();
+}
+
+// Several blocks in each millisecond: the segment ring is full of short segments.
+static void test_many_blocks_in_a_slice(void) {
+    const stepper_axis_t fast = {
+        .steps_per_unit = 80, .max_velocity = 37500, .max_acceleration = 20000};
+    for (int turns = 0; turns < 2; turns++) {
+        bench_start_with(&fast, STEPPER_BLOCKS_MAX, false);
+        stepper_junction(turns ? 10 : 0.02); // with turns: Y back and forth all the time
+        for (int i = 1; i <= 1000; i++) {
+            bench_move(0.05 * i, turns && i % 2 ? 0.02 : 0, 0, 0, 37500);
+        }
+        bench_finish(10);
+        bench_check_positions();
+        TEST_ASSERT_EQUAL_INT32(4000, stepper_position_steps(AXIS_X));
+        TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_Y));
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, bench.min_step_gap_ns);
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT64(10000, bench.min_dir_setup_ns);
+        TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, bench.min_dir_hold_ns);
+        bench_end();
+    }
 }
 
 static void test_step_rate_is_limited_to_every_second_tick(void) {
@@ -225,6 +247,7 @@ int main(void) {
     RUN_TEST(test_moves_below_a_step_add_up);
     RUN_TEST(test_short_blocks_in_line_run_as_one);
     RUN_TEST(test_circle_of_chords_keeps_its_feed);
+    RUN_TEST(test_many_blocks_in_a_slice);
     RUN_TEST(test_step_rate_is_limited_to_every_second_tick);
     RUN_TEST(test_extreme_scales_and_accelerations);
     RUN_TEST(test_ten_metres_slow_and_fast);
