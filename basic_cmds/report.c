@@ -1,6 +1,8 @@
 // STEPPER STATUS and PEEK(STEPPER ...). Context: main loop.
 #include "basic_cmds/report.h"
 
+#include <math.h>
+
 #include "gcode/gcode.h"
 #include "stepper/stepper.h"
 
@@ -23,14 +25,14 @@ static void print_axis(axis_id_t axis) {
     }
     char name = "XYZA"[axis];
     const char *unit = axis == AXIS_A ? "deg" : "mm";
+    double velocity = fmin(config.max_velocity, stepper_step_rate_limit(axis));
     basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, work_position(axis), unit,
                  stepper_position(axis), unit, (long)stepper_position_steps(axis));
     basic_printf("%c pins: step %s, dir %s%s, enable %s\n", name, pins_name(config.step_gpio),
                  pins_name(config.dir_gpio), config.dir_invert ? " inverted" : "",
                  pins_name(config.enable_gpio));
     basic_printf("%c motion: %.9g steps/%s, max %.9g %s/min, %.9g %s/s^2\n", name,
-                 config.steps_per_unit, unit, config.max_velocity, unit, config.max_acceleration,
-                 unit);
+                 config.steps_per_unit, unit, velocity, unit, config.max_acceleration, unit);
     double min, max;
     if (stepper_axis_limits(axis, &min, &max)) {
         basic_printf("%c limits: %.3f to %.3f %s\n", name, min, max, unit);
@@ -60,8 +62,9 @@ err_t report_status(const basic_arg_t *args, size_t count) {
                  status.rapid_override);
     basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status.junction_deviation_mm,
                  status.arc_tolerance_mm);
-    basic_printf("E-STOP: %s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
-                 yes_no(status.estop_keeps_enabled));
+    bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
+    basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
+                 asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
     basic_printf("Spindle: %s%s, %s\n", pins_name(status.spindle_gpio),
                  status.spindle_invert ? " inverted" : "", on_off(status.spindle_on));
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {

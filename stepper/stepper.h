@@ -68,7 +68,8 @@ err_t stepper_run(stepper_idle_t idle);
 err_t stepper_clear(void);
 
 // Controlled stop: brakes along the path within the acceleration limits, drops the rest of the queue;
-// the position stays exact. Returns at once; until standstill new moves are refused. No effect at rest.
+// the position stays exact. Returns at once; until standstill new moves are refused. At rest it only
+// drops what waits for RUN.
 void stepper_stop(void);
 
 // Feed hold: brakes along the path within the acceleration limits and waits, in a dwell as well; the

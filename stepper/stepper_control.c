@@ -39,6 +39,10 @@ void stepper_stop(void) {
     if (!machine.initialized) {
         return;
     }
+    if (!governor_working()) {
+        stepper_clear();
+        return;
+    }
     hal_governor_lock();
     governor_stop();
     hal_governor_request();

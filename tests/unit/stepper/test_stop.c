@@ -67,6 +67,21 @@ static void test_stop_in_a_dwell_and_at_rest(void) {
     bench_end();
 }
 
+static void test_stop_drops_what_waits_for_run(void) {
+    bench_start();
+    stepper_estop(); // disarmed
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
+    bench_move(10, 0, 0, 0, 6000);
+    stepper_stop();
+    TEST_ASSERT_EQUAL_UINT32(STEPPER_BLOCKS_DEFAULT, stepper_blocks_free());
+    stepper_run(STEPPER_IDLE_HOLD);
+    bench_move(0, 1, 0, 0, 6000);
+    bench_finish(1);
+    TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
+    TEST_ASSERT_EQUAL_INT32(80, stepper_position_steps(AXIS_Y));
+    bench_end();
+}
+
 static void test_emergency_stop_ends_all_steps(void) {
     bench_start();
     bench_move(500, 0, 0, 0, 6000);
@@ -169,6 +184,7 @@ int main(void) {
     RUN_TEST(test_stop_brakes_and_keeps_the_position);
     RUN_TEST(test_stop_from_full_speed_takes_the_braking_distance);
     RUN_TEST(test_stop_in_a_dwell_and_at_rest);
+    RUN_TEST(test_stop_drops_what_waits_for_run);
     RUN_TEST(test_emergency_stop_ends_all_steps);
     RUN_TEST(test_emergency_stop_at_any_tick_leaves_the_machine_in_order);
     RUN_TEST(test_emergency_stop_at_rest_keeps_the_position);
