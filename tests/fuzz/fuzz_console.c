@@ -228,7 +228,7 @@ static bool is_at_prompt(void) {
 }
 
 static void drain(void) {
-    bool moving = stepper_active() == 1;
+    bool moving = fuzz_machine_is_moving();
     if (moving && hal_time_us() - peer.since_us < SETTLE_US) {
         return;
     }
@@ -248,10 +248,11 @@ static void drain(void) {
 static void go_on(void) {
     check_input();
     if (peer.inputs == INPUTS) {
+        stepper_hold(false); // or it would never come to its end
         start_waiting(STEP_DRAIN);
         return;
     }
-    if (fuzz_random_percent(30) && stepper_active() == 1) {
+    if (fuzz_random_percent(30) && fuzz_machine_is_moving()) {
         peer.resume_us = hal_time_us() + fuzz_random_below(100000);
     }
     begin_input();
@@ -277,7 +278,7 @@ static size_t type(uint8_t *bytes, size_t size) {
     peer.quiet++;
     switch (peer.step) {
     case STEP_SEND:
-        if (stepper_active() == 1 && hal_time_us() < peer.resume_us) {
+        if (fuzz_machine_is_moving() && hal_time_us() < peer.resume_us) {
             return 0;
         }
         return hand_over(bytes, size);

@@ -112,16 +112,18 @@ void fuzz_machine_check_pulses(void) {
     }
 }
 
-static bool is_moving(void) {
-    return stepper_active() == 1;
+bool fuzz_machine_is_moving(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    return status.moving && (!status.holding || hal_tick_running());
 }
 
 static bool wait_for_rest(double limit_s) {
     uint64_t until_us = hal_time_us() + (uint64_t)(limit_s * 1e6);
-    while (is_moving() && hal_time_us() < until_us) {
+    while (fuzz_machine_is_moving() && hal_time_us() < until_us) {
         hal_idle(until_us);
     }
-    return !is_moving();
+    return !fuzz_machine_is_moving();
 }
 
 static void check_on_target(void) {
@@ -148,7 +150,7 @@ bool fuzz_machine_settle(double limit_s) {
             stepper_estop();
         }
     }
-    FUZZ_SESSION_CHECK(!is_moving(), "still moving after an emergency stop");
+    FUZZ_SESSION_CHECK(!fuzz_machine_is_moving(), "still moving after an emergency stop");
     fuzz_machine_check_pulses();
     stepper_status_t status;
     stepper_status(&status);
