@@ -17,7 +17,7 @@ import subprocess
 import sys
 from dataclasses import dataclass, field
 
-from tick import FUNCTION, INSTRUCTION, WORD, disassemble, stack_of
+from tick import disassemble, lines_by_function, stack_of
 
 # What the core puts on the stack, with four bytes to align it: Armv6-M, and Armv8-M with room for
 # the floating-point registers.
@@ -99,17 +99,13 @@ def taken_by(mnemonic: str, operands: str) -> int:
 def parse(listing: str) -> dict[int, Function]:
     """Return the functions of a listing by address."""
     functions: dict[int, Function] = {}
-    current: Function | None = None
-    for line in listing.splitlines():
-        if header := FUNCTION.match(line):
-            current = Function(header[2], int(header[1], 16))
-            functions[current.address] = current
-        elif current is None:
-            continue
-        elif word := WORD.match(line):
-            current.literals.append(int(word[2], 16))
-        elif found := INSTRUCTION.match(line):
-            mnemonic, operands = found[2], found[3].split("@")[0].split(";")[0].strip()
+    for name, address, lines in lines_by_function(listing):
+        current = functions[address] = Function(name, address)
+        for line in lines:
+            if line.word is not None:
+                current.literals.append(line.word)
+                continue
+            mnemonic, operands = line.mnemonic, line.operands
             current.stack_bytes += taken_by(mnemonic, operands)
             current.large_frame |= mnemonic == "add" and re.match(r"sp, r", operands) is not None
             current.through_pointer |= goes_through_pointer(mnemonic, operands)

@@ -12,6 +12,7 @@ import argparse
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 RAM = range(0x20000000, 0x20090000)
@@ -93,22 +94,42 @@ def judge(function: Function, mnemonic: str, operands: str) -> None:
         function.callees.add(target[2])
 
 
+@dataclass(frozen=True)
+class Line:
+    """A line of a listing that belongs to a function: a literal word, or an instruction."""
+
+    word: int | None
+    mnemonic: str = ""
+    operands: str = ""
+
+
+def lines_by_function(listing: str) -> Iterator[tuple[str, int, list[Line]]]:
+    """Yield name, address and lines of each function of a listing."""
+    name, address, lines = "", 0, list[Line]()
+    for text in listing.splitlines():
+        if header := FUNCTION.match(text):
+            if name:
+                yield name, address, lines
+            name, address, lines = header[2], int(header[1], 16), []
+        elif word := WORD.match(text):
+            lines.append(Line(int(word[2], 16)))
+        elif found := INSTRUCTION.match(text):
+            operands = found[3].split("@")[0].split(";")[0].strip()
+            lines.append(Line(None, found[2], operands))
+    if name:
+        yield name, address, lines
+
+
 def parse(listing: str, flash_end: int) -> dict[str, Function]:
     """Return the functions of a listing by name."""
     functions: dict[str, Function] = {}
-    current: Function | None = None
-    for line in listing.splitlines():
-        if header := FUNCTION.match(line):
-            current = Function(header[2], int(header[1], 16))
-            functions[current.name] = current
-        elif current is None:
-            continue
-        elif word := WORD.match(line):
-            value = int(word[2], 16)
-            if 0x10000000 < value < flash_end:
-                current.faults.append(f"uses flash at 0x{value:08x}")
-        elif found := INSTRUCTION.match(line):
-            judge(current, found[2], found[3].split("@")[0].split(";")[0].strip())
+    for name, address, lines in lines_by_function(listing):
+        function = functions[name] = Function(name, address)
+        for line in lines:
+            if line.word is None:
+                judge(function, line.mnemonic, line.operands)
+            elif 0x10000000 < line.word < flash_end:
+                function.faults.append(f"uses flash at 0x{line.word:08x}")
     return functions
 
 
