@@ -24,7 +24,7 @@ static void warn_of_rate_limit(axis_id_t axis, double velocity) {
     double reachable = stepper_step_rate_limit(axis);
     if (velocity > reachable) {
         basic_printf("Warning: %c axis max speed limited to %.1f %s/min by the 50 kHz step rate\n",
-                     "XYZA"[axis], reachable, axis == AXIS_A ? "deg" : "mm");
+                     STEPPER_AXIS_LETTERS[axis], reachable, axis == AXIS_A ? "deg" : "mm");
     }
 }
 

@@ -23,7 +23,7 @@ static void print_axis(axis_id_t axis) {
     if (!stepper_axis_config(axis, &config)) {
         return;
     }
-    char name = "XYZA"[axis];
+    char name = STEPPER_AXIS_LETTERS[axis];
     const char *unit = axis == AXIS_A ? "deg" : "mm";
     double velocity = fmin(config.max_velocity, stepper_step_rate_limit(axis));
     basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, work_position(axis), unit,
@@ -79,7 +79,7 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
     if (what < AXIS_COUNT) {
         axis_id_t axis = (axis_id_t)what;
         if (!stepper_axis_configured(axis)) {
-            return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", "XYZA"[axis]);
+            return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
         *result = (basic_value_t){.type = BASIC_FLOAT, .number = work_position(axis)};
         return ERR_OK;

@@ -47,8 +47,6 @@ typedef struct {
     double p;
 } line_t;
 
-static const char axis_letters[AXIS_COUNT] = {'X', 'Y', 'Z', 'A'};
-
 // ---- Reading -------------------------------------------------------------------------------------
 
 static err_t set_action(line_t *line, action_t action) {
@@ -128,10 +126,10 @@ static err_t twice(char letter) {
 
 static err_t read_axis(line_t *line, axis_id_t axis, double value) {
     if ((line->axes >> axis) & 1) {
-        return twice(axis_letters[axis]);
+        return twice(STEPPER_AXIS_LETTERS[axis]);
     }
     if (!stepper_axis_configured(axis)) {
-        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", axis_letters[axis]);
+        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
     }
     line->axes |= 1u << axis;
     line->axis[axis] = value;
@@ -165,9 +163,10 @@ static err_t read_p(line_t *line, double value) {
 }
 
 static err_t read_word(line_t *line, const gcode_word_t *word) {
-    const char *axis = memchr(axis_letters, word->letter, sizeof axis_letters);
+    static const char letters[] = STEPPER_AXIS_LETTERS;
+    const char *axis = memchr(letters, word->letter, AXIS_COUNT);
     if (axis != NULL) {
-        return read_axis(line, (axis_id_t)(axis - axis_letters), word->value);
+        return read_axis(line, (axis_id_t)(axis - letters), word->value);
     }
     switch (word->letter) {
     case 'G':

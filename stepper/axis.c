@@ -10,8 +10,6 @@
 
 axis_t axes[AXIS_COUNT];
 
-static const char *const names[AXIS_COUNT] = {"X", "Y", "Z", "A"};
-
 // pins_claim() keeps a pointer, so the owner's name must be a constant.
 static const char *const owners[AXIS_COUNT][PINS_PER_AXIS] = {
     {"STEPPER X step", "STEPPER X dir", "STEPPER X enable"},
@@ -19,10 +17,6 @@ static const char *const owners[AXIS_COUNT][PINS_PER_AXIS] = {
     {"STEPPER Z step", "STEPPER Z dir", "STEPPER Z enable"},
     {"STEPPER A step", "STEPPER A dir", "STEPPER A enable"},
 };
-
-const char *axis_name(axis_id_t axis) {
-    return names[axis];
-}
 
 static void list_pins(const stepper_axis_t *config, uint8_t gpios[PINS_PER_AXIS]) {
     gpios[0] = config->step_gpio;

@@ -15,9 +15,6 @@ typedef struct {
 
 extern axis_t axes[AXIS_COUNT];
 
-// "X", "Y", "Z", "A".
-const char *axis_name(axis_id_t axis);
-
 // Takes the pins and keeps the configuration, or fails and changes nothing.
 err_t axis_configure(axis_id_t axis, const stepper_axis_t *config);
 

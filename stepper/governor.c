@@ -240,7 +240,7 @@ void hal_on_governor(void) {
     while (more && segment_writer_ahead_ticks() < AHEAD_TICKS && segment_writer_has_room()) {
         more = advance();
     }
-    if (ring_used(&segments.ring) > 0 && !hal_tick_running()) {
+    if (ring_used(&segments.ring) > 0) {
         hal_tick_start();
     }
 }
@@ -262,7 +262,7 @@ void governor_set_pins(const governor_pins_t *pins) {
 void governor_arm(bool idle_off) {
     governor.idle_off = idle_off;
     governor.armed = true;
-    if (step_isr_watches() && !hal_tick_running()) {
+    if (step_isr_watches()) {
         hal_tick_start();
     }
 }

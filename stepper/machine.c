@@ -7,11 +7,15 @@
 
 machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
 
-void machine_follow_motors(void) {
-    int32_t steps[AXIS_COUNT];
+void machine_motor_steps(int32_t steps[AXIS_COUNT]) {
     hal_governor_lock();
     governor_position(steps);
     hal_governor_unlock();
+}
+
+void machine_follow_motors(void) {
+    int32_t steps[AXIS_COUNT];
+    machine_motor_steps(steps);
     planner_set_position(steps);
 }
 
@@ -52,8 +56,9 @@ err_t machine_check_at_rest(void) {
 }
 
 err_t machine_check_axis(axis_id_t axis) {
-    return axes[axis].configured ? ERR_OK
-                                 : err_raise(ERR_AXIS_NOT_CONFIGURED, "%s", axis_name(axis));
+    return axes[axis].configured
+               ? ERR_OK
+               : err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
 }
 
 err_t machine_check_queue(void) {

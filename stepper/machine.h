@@ -18,6 +18,9 @@ typedef struct {
 
 extern machine_t machine;
 
+// Where the motors are now.
+void machine_motor_steps(int32_t steps[AXIS_COUNT]);
+
 // The planner goes on from where the motors stand.
 void machine_follow_motors(void);
 

@@ -11,6 +11,7 @@
 #include "hal/hal.h"
 
 typedef enum { AXIS_X, AXIS_Y, AXIS_Z, AXIS_A, AXIS_COUNT } axis_id_t;
+#define STEPPER_AXIS_LETTERS "XYZA" // indexed by axis_id_t
 
 #define STEPPER_BLOCKS_MAX 1024u
 #define STEPPER_BLOCKS_DEFAULT 32u

@@ -114,11 +114,9 @@ err_t stepper_set_position(axis_id_t axis, double position) {
         return err;
     }
     int32_t steps[AXIS_COUNT];
-    hal_governor_lock();
-    governor_position(steps);
-    hal_governor_unlock();
+    machine_motor_steps(steps);
     if (!axis_to_steps(axis, position, &steps[axis])) {
-        return err_raise(ERR_AXIS_TOO_FAR, "%s", axis_name(axis));
+        return err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
     }
     stand_at(steps);
     return ERR_OK;
@@ -126,9 +124,7 @@ err_t stepper_set_position(axis_id_t axis, double position) {
 
 int32_t stepper_position_steps(axis_id_t axis) {
     int32_t steps[AXIS_COUNT];
-    hal_governor_lock();
-    governor_position(steps);
-    hal_governor_unlock();
+    machine_motor_steps(steps);
     return steps[axis];
 }
 

@@ -23,10 +23,10 @@ static err_t check_target(const stepper_move_t *move, int32_t steps[AXIS_COUNT])
         double tolerance = 0.5 / axes[axis].config.steps_per_unit;
         if (axes[axis].limited && target != from[axis] &&
             (target < axes[axis].min - tolerance || target > axes[axis].max + tolerance)) {
-            return err_raise(ERR_SOFT_LIMIT, "%s", axis_name(axis));
+            return err_raise(ERR_SOFT_LIMIT, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
         if (!axis_to_steps(axis, target, &steps[axis])) {
-            return err_raise(ERR_AXIS_TOO_FAR, "%s", axis_name(axis));
+            return err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
     }
     return ERR_OK;
