@@ -92,11 +92,11 @@ static float next_speed(float left, float dt, float exit_speed2) {
     return fmaxf(fmaxf(v1, v - change), 0.0f);
 }
 
-static void start_block(const block_t *block) {
+static void start_block(const block_t *block, const int32_t start[AXIS_COUNT]) {
     governor.block = block;
     governor.progress = 0;
     governor.dwell_left = block->kind == BLOCK_DWELL ? block->dwell_ticks : 0;
-    segment_writer_end_steps(governor.start);
+    memcpy(governor.start, start, sizeof governor.start);
 }
 
 static void finish_block(void) {
@@ -137,8 +137,7 @@ static float pass_end(float left, float v1, float dt, float exit_speed2) {
     memcpy(end, governor.block->move.target, sizeof end);
     finish_block();
     if (!at_rest) {
-        start_block(planner_front());
-        memcpy(governor.start, end, sizeof end);
+        start_block(planner_front(), end);
     }
     return ticks;
 }
@@ -209,7 +208,9 @@ static bool advance(void) {
         return false;
     }
     if (governor.block == NULL) {
-        start_block(front);
+        int32_t here[AXIS_COUNT];
+        segment_writer_end_steps(here);
+        start_block(front, here);
     }
     switch (front->kind) {
     case BLOCK_MOVE:
@@ -337,8 +338,6 @@ bool governor_estop_event(void) {
     return governor.estop_event;
 }
 
-bool governor_take_estop_event(void) {
-    bool event = governor.estop_event;
+void governor_clear_estop_event(void) {
     governor.estop_event = false;
-    return event;
 }

@@ -49,7 +49,7 @@ bool governor_holding(void);
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow
-bool governor_estop_event(void);
-bool governor_take_estop_event(void); // a safety input has stopped the machine since the last call
+bool governor_estop_event(void);  // a safety input has stopped the machine since it was cleared
+void governor_clear_estop_event(void);
 
 #endif

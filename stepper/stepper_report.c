@@ -68,9 +68,10 @@ uint32_t stepper_status_bits(void) {
 }
 
 stepper_event_t stepper_next_event(void) {
-    machine_follow_stops();
-    if (governor_take_estop_event()) {
-        return STEPPER_EVENT_ESTOP;
+    if (!governor_estop_event()) { // asked at each statement of a program
+        return STEPPER_EVENT_NONE;
     }
-    return STEPPER_EVENT_NONE;
+    machine_follow_stops();
+    governor_clear_estop_event();
+    return STEPPER_EVENT_ESTOP;
 }
