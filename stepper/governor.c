@@ -72,7 +72,7 @@ static void target_at_end(int64_t target[AXIS_COUNT]) {
 }
 
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
-    segment_writer_move(target, governor.pending_ticks, at_rest);
+    segment_writer_move(target, governor.pending_ticks, 0, at_rest);
     governor.pending_ticks = 0.0f;
 }
 

@@ -153,7 +153,9 @@ static uint32_t ticks_needed(const int64_t target[AXIS_COUNT]) {
     return (uint32_t)((farthest + RATE_MAX - 1) / RATE_MAX);
 }
 
-void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, bool at_rest) {
+void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
+                         bool at_rest) {
+    (void)change; // within a segment the speed is constant
     float due = ticks + writer.late_ticks;
     uint32_t whole = due >= 1.5f ? (uint32_t)(due + 0.5f) : 1;
     writer.late_ticks = due - (float)whole;

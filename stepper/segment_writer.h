@@ -13,8 +13,11 @@ void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
 
 // Goes to `target` (2^-32 steps) within `ticks`. Rounding of the ticks is made up for in the next
-// call. `at_rest`: the motion ends there.
-void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, bool at_rest);
+// call. `change`: how the speed along the path changes on the way, (end - start) / (end + start) in
+// SEGMENT_CHANGE_ONE. `at_rest`: the motion ends there.
+#define SEGMENT_CHANGE_ONE ((int32_t)1 << 30)
+void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
+                         bool at_rest);
 
 // Stands still for `ticks` (>= 1); the pins are switched at the first one.
 void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear);
