@@ -7,15 +7,13 @@
 
 #define TICK_NS (1000000000u / HAL_TICK_HZ)
 
-typedef enum { CONTEXT_MAIN, CONTEXT_TICK, CONTEXT_GOVERNOR } context_t;
-
 static struct {
     uint64_t next_ns; // of the coming tick
     bool running;
     bool governor_pending; // asked for and not yet begun
     bool governor_locked;
     bool news; // governor ran or tick stopped since host_tick_run() looked
-    context_t context;
+    host_tick_context_t context;
 } tick;
 
 uint64_t host_tick_next_ns(void) {
@@ -28,23 +26,42 @@ static void governor_if_due(void) {
     while (tick.governor_pending && !tick.governor_locked) {
         tick.governor_pending = false;
         tick.news = true;
-        tick.context = CONTEXT_GOVERNOR;
+        tick.context = HOST_TICK_GOVERNOR;
         hal_on_governor();
-        tick.context = CONTEXT_MAIN;
+        tick.context = HOST_TICK_MAIN;
     }
+}
+
+static void run_tick(void) {
+    host_tick_context_t interrupted = tick.context;
+    host_clock_set_ns(tick.next_ns);
+    tick.next_ns += TICK_NS;
+    tick.context = HOST_TICK_TICK;
+    hal_on_tick();
+    tick.context = interrupted;
 }
 
 bool host_tick_run(uint64_t until_ns, bool stop_on_news) {
     tick.news = false;
     while (tick.running && tick.next_ns <= until_ns && !(tick.news && stop_on_news)) {
-        host_clock_set_ns(tick.next_ns);
-        tick.next_ns += TICK_NS;
-        tick.context = CONTEXT_TICK;
-        hal_on_tick();
-        tick.context = CONTEXT_MAIN;
+        run_tick();
         governor_if_due();
     }
     return tick.news;
+}
+
+host_tick_context_t host_tick_context(void) {
+    return tick.context == HOST_TICK_MAIN && tick.governor_locked ? HOST_TICK_LOCKED : tick.context;
+}
+
+void host_tick_interrupt(void) {
+    if (!tick.running || tick.context == HOST_TICK_TICK) {
+        return;
+    }
+    run_tick();
+    if (tick.context == HOST_TICK_MAIN) {
+        governor_if_due();
+    }
 }
 
 void hal_tick_start(void) {
@@ -65,7 +82,7 @@ bool hal_tick_running(void) {
 
 void hal_governor_request(void) {
     tick.governor_pending = true;
-    if (tick.context == CONTEXT_MAIN) {
+    if (tick.context == HOST_TICK_MAIN) {
         governor_if_due();
     }
 }
@@ -76,7 +93,7 @@ void hal_governor_lock(void) {
 
 void hal_governor_unlock(void) {
     tick.governor_locked = false;
-    if (tick.context == CONTEXT_MAIN) {
+    if (tick.context == HOST_TICK_MAIN) {
         governor_if_due();
     }
 }

@@ -5,6 +5,7 @@
 #include "fixture.h"
 #include "hal/hal.h"
 #include "host_clock.h"
+#include "host_tick.h"
 
 #define LOG_SIZE 64
 
@@ -18,14 +19,21 @@ static struct {
     unsigned request_at_tick;
     unsigned repeats; // the governor asks for itself this often
     unsigned depth, depth_max;
+    bool interrupt_tick, interrupt_governor;
+    host_tick_context_t seen; // by the last tick or governor
 } run;
 
 static void log_tick(void) {
     run.tick_ns[run.ticks++ % LOG_SIZE] = host_clock_now_ns() - run.start_ns;
+    run.seen = host_tick_context();
+    if (run.interrupt_tick) {
+        host_tick_interrupt();
+    }
     if (run.ticks == run.request_at_tick) {
+        unsigned before = run.governors;
         hal_governor_request();
         hal_governor_request();
-        TEST_ASSERT_EQUAL_UINT(0, run.governors); // the tick is above the governor
+        TEST_ASSERT_EQUAL_UINT(before, run.governors); // the tick is above the governor
     }
     if (run.ticks == run.last_tick) {
         hal_tick_stop();
@@ -36,6 +44,13 @@ static void log_governor(void) {
     run.depth++;
     run.depth_max = run.depth > run.depth_max ? run.depth : run.depth_max;
     run.governor_ns[run.governors++ % LOG_SIZE] = host_clock_now_ns() - run.start_ns;
+    if (run.interrupt_governor) {
+        unsigned before = run.ticks;
+        host_tick_interrupt();
+        TEST_ASSERT_EQUAL_UINT(before + 1, run.ticks);
+        TEST_ASSERT_EQUAL(HOST_TICK_TICK, run.seen);
+    }
+    run.seen = host_tick_context();
     if (run.repeats > 0) {
         run.repeats--;
         hal_governor_request();
@@ -128,6 +143,45 @@ static void test_lock_holds_off_what_a_tick_asks_for(void) {
     TEST_ASSERT_EQUAL_UINT64(50000, run.governor_ns[0]);
 }
 
+static void test_an_interrupted_main_loop_sees_the_tick_and_then_the_governor(void) {
+    run.request_at_tick = 2;
+    host_tick_interrupt(); // the tick is stopped
+    TEST_ASSERT_EQUAL_UINT(0, run.ticks);
+    hal_tick_start();
+    host_tick_interrupt();
+    TEST_ASSERT_EQUAL(HOST_TICK_TICK, run.seen);
+    TEST_ASSERT_EQUAL_UINT64(run.start_ns + 10000, host_clock_now_ns());
+    host_tick_interrupt();
+    TEST_ASSERT_EQUAL(HOST_TICK_GOVERNOR, run.seen);
+    TEST_ASSERT_EQUAL_UINT(1, run.governors);
+    TEST_ASSERT_EQUAL(HOST_TICK_MAIN, host_tick_context());
+    host_clock_run(run.start_ns + 50000, false); // the grid stays as it is
+    TEST_ASSERT_EQUAL_UINT64(50000, run.tick_ns[4]);
+}
+
+static void test_an_interrupted_section_holds_the_governor_off(void) {
+    run.request_at_tick = 1;
+    hal_tick_start();
+    hal_governor_lock();
+    TEST_ASSERT_EQUAL(HOST_TICK_LOCKED, host_tick_context());
+    host_tick_interrupt();
+    TEST_ASSERT_EQUAL_UINT(1, run.ticks);
+    TEST_ASSERT_EQUAL_UINT(0, run.governors);
+    hal_governor_unlock();
+    TEST_ASSERT_EQUAL_UINT(1, run.governors);
+}
+
+static void test_the_governor_is_interrupted_by_the_tick_only(void) {
+    run.interrupt_tick = true; // without effect
+    run.interrupt_governor = true;
+    run.request_at_tick = 1; // by the tick that comes into the governor: once more, not deeper
+    hal_tick_start();
+    hal_governor_request();
+    TEST_ASSERT_EQUAL_UINT(2, run.ticks);
+    TEST_ASSERT_EQUAL_UINT(2, run.governors);
+    TEST_ASSERT_EQUAL_UINT(1, run.depth_max);
+}
+
 static void test_a_statement_takes_two_ticks(void) {
     hal_tick_start();
     hal_statement();
@@ -146,6 +200,9 @@ int main(void) {
     RUN_TEST(test_request_in_the_governor_brings_it_again_not_deeper);
     RUN_TEST(test_lock_holds_the_governor_off);
     RUN_TEST(test_lock_holds_off_what_a_tick_asks_for);
+    RUN_TEST(test_an_interrupted_main_loop_sees_the_tick_and_then_the_governor);
+    RUN_TEST(test_an_interrupted_section_holds_the_governor_off);
+    RUN_TEST(test_the_governor_is_interrupted_by_the_tick_only);
     RUN_TEST(test_a_statement_takes_two_ticks);
     return UNITY_END();
 }
