@@ -86,10 +86,10 @@ def test_dry_run_needs_no_board(part):
 
 
 def test_dry_run_finds_the_bad_line(part):
-    part.write_text("G1 X1 F100\nG2 X1 I5\n")
+    part.write_text("G1 X1 F100\nG5 X1 I5\n")
     result = call("stream", part, "--dry-run")
     assert result.exit_code == 1
-    assert "part.nc:2: G2 X1 I5" in result.output
+    assert "part.nc:2: G5 X1 I5" in result.output
 
 
 def test_plot_draws_a_picture(part, tmp_path):

@@ -75,10 +75,13 @@ def test_modal_state_and_offsets():
     ("lines", "message"),
     [
         (["G1 X1"], "before any F"),
-        (["X1"], "without G0 or G1"),
+        (["X1"], "without a motion mode"),
         (["G1 X1 X2 F100"], "X occurs twice"),
-        (["G2 X1 I1"], "word I"),
-        (["G2 X1"], "G2 is not supported"),
+        (["G5 X1"], "G5 is not supported"),
+        (["G1 X1 U1 F1"], "word U is not supported"),
+        (["G2 X1 I1"], "G2 before any F"),
+        (["G1 X1 I1 F1"], "without an arc"),
+        (["G64 P-1"], "must not be below 0"),
         (["G4"], "G4 without P"),
         (["G92"], "G92 without an axis"),
         (["M3 G0 X1"], "a line each"),
@@ -101,6 +104,137 @@ def test_circle_of_chords():
     assert sum(row.duration_s() for row in plan(read_blocks(lines))) == pytest.approx(
         2.61, rel=0.01
     )
+
+
+def arc_of(*lines):
+    reader = Reader()
+    block = list(read_blocks(["F600", *lines], reader))[-1]
+    return block.arc, block.target
+
+
+@pytest.mark.parametrize(
+    ("line", "centre", "degrees"),
+    [
+        ("G3 X20 Y0 I10", (10, 0), 180),
+        ("G2 X20 Y0 I10", (10, 0), -180),
+        ("G3 X10 Y10 J10", (0, 10), 90),
+        ("G2 X10 Y10 J10", (0, 10), -270),
+        ("G3 I10", (10, 0), 360),
+        ("G2 X0 Y0 I10 P3", (10, 0), -1080),
+        ("G3 X10 Y10 J10 P2", (0, 10), 450),
+        ("G3 X10 Y10 R10", (0, 10), 90),
+        ("G3 X10 Y10 R-10", (10, 0), 270),
+        ("G2 X10 Y10 R10", (10, 0), -90),
+        ("G2 X10 Y10 R-10", (0, 10), -270),
+        ("G3 X20 Y0 R10", (10, 0), 180),
+        # The plane ZX: I lies along its second axis.
+        ("G18 G3 X10 Z10 I10", (0, 10), 90),
+        ("G18 G2 X10 Z10 K10", (10, 0), -90),
+        ("G19 G3 Y10 Z10 K10", (0, 10), 90),
+    ],
+)
+def test_arcs(line, centre, degrees):
+    arc, target = arc_of(line)
+    assert arc.centre == pytest.approx(centre, abs=1e-9)
+    assert math.degrees(arc.sweep) == pytest.approx(degrees)
+    assert arc.position((0, 0, 0, 0), target, 1.0) == pytest.approx(target, abs=1e-9)
+
+
+def test_a_helix_rises_evenly_and_turns_a_along():
+    arc, target = arc_of("G3 X20 I10 Z6 A90")
+    assert arc.position((0, 0, 0, 0), target, 0.5) == pytest.approx((10, -10, 3, 45))
+    assert arc.length((0, 0, 0, 0), target) == pytest.approx(math.hypot(10 * math.pi, 6))
+    assert next(iter(Reader(arcs_turn_a=False).read(1, "G3 X20 I10 A90 F1"))).target == (
+        20,
+        0,
+        0,
+        0,
+    )
+
+
+def test_the_slope_of_an_arc_is_its_derivative():
+    arc, target = arc_of("G18 G2 X7 Z3 Y5 A9 R8")
+    start = (0, 0, 0, 0)
+    for part in (0.0, 0.3, 1.0):
+        ahead, behind = (arc.position(start, target, part + h) for h in (1e-6, -1e-6))
+        wanted = [(a - b) / 2e-6 for a, b in zip(ahead, behind, strict=True)]
+        assert arc.slope(start, target, part) == pytest.approx(wanted, abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("line", "message"),
+    [
+        ("G2 X10", "needs R or the centre"),
+        ("G2 X10 I5 R5", "needs R or the centre"),
+        ("G2 R5", "must end elsewhere"),
+        ("G2 X10 R4", "R is too small"),
+        ("G2 X10 I0 J0", "the centre of the arc is its start"),
+        ("G2 X10 I5.6", "off the arc"),
+        ("G2 X10 I5 K1", "K does not lie in the plane"),
+        ("G2 X10 I5 P1.5", "whole number of turns"),
+    ],
+)
+def test_arcs_that_are_none(line, message):
+    with pytest.raises(GcodeError, match=message):
+        arc_of(line)
+
+
+def test_path_modes_stay_in_force():
+    lines = ["G61 G1 X1 F60", "X2", "G61.1 X3", "G64 X4", "G64 P0.05", "X5"]
+    modes = [block.path_mode for block in read_blocks(lines)]
+    assert [mode.kind for mode in modes] == ["G61", "G61", "G61.1", "G64", "G64"]
+    assert [mode.tolerance_mm for mode in modes] == [0, 0, 0, 0, 0.05]
+
+
+def seconds(*lines, machine=None):
+    return sum(row.duration_s() for row in plan(read_blocks(lines), machine))
+
+
+FAST = Machine((200.0,) * 4, (1000.0,) * 4, 0.01)
+
+
+def test_a_circle_is_as_fast_as_its_feed():
+    wanted = 40 * math.pi / 50 + 50 / 1000
+    assert seconds("G1 F3000", "G3 I20", machine=FAST) == pytest.approx(wanted, rel=0.001)
+
+
+def test_a_small_arc_is_limited_by_its_curvature():
+    # v^2 / 1 mm = 866 mm/s^2: 29.4 mm/s, reached and left with half the acceleration.
+    (row,) = plan(read_blocks(["G1 F9000", "G3 I1"]), FAST)
+    assert row.nominal == pytest.approx(29.43, rel=0.001)
+    assert row.acceleration == pytest.approx(500, rel=0.001)
+
+
+def test_arcs_and_lines_that_meet_tangentially_do_not_stop():
+    lines = ["G1 F3000 X10", "G3 X20 Y10 J10", "G1 Y20"]
+    way = 20 + 5 * math.pi
+    assert seconds(*lines, machine=FAST) == pytest.approx(way / 50 + 50 / 1000, rel=0.01)
+
+
+def test_exact_stops_stop_and_exact_paths_at_corners_only():
+    lines = ["G1 F3000 X10", "X20", "Y10"]
+    alone = [seconds(f"G1 F3000 X{length}", machine=FAST) for length in (10, 20)]
+    assert seconds("G61.1", *lines, machine=FAST) == pytest.approx(3 * alone[0])
+    assert seconds("G61", *lines, machine=FAST) == pytest.approx(alone[1] + alone[0])
+
+
+def test_a_blend_passes_the_corner_by_acceleration():
+    rows = plan(read_blocks(["G64 P0.1 G1 F6000 X20", "Y20"]), FAST)
+    assert len(rows) == 3
+    # 90 degrees: it begins 0.283 mm before the corner; v^2 = A * 2 * 0.283 mm.
+    assert rows[1].length == pytest.approx(0.5657, rel=0.001)
+    assert rows[1].nominal == pytest.approx(23.78, rel=0.001)
+    assert rows[0].length == pytest.approx(20 - 0.2828, rel=0.001)
+    assert rows[1].entry == rows[1].exit == pytest.approx(rows[1].nominal)
+
+
+def test_a_corner_of_short_moves_is_limited_by_their_middle():
+    # 1 mm moves at 90 degrees, deviation 1 mm: the arc may not be larger than r = 0.5 mm.
+    rows = plan(
+        read_blocks(["G1 F9000", "X1", "Y1", "X2"]), Machine((200.0,) * 4, (1000.0,) * 4, 1.0)
+    )
+    diagonal = 1000 * math.sqrt(2)
+    assert rows[1].entry_cap == pytest.approx(math.sqrt(diagonal * 0.5))
 
 
 coordinate = st.integers(-20_000, 20_000).map(lambda n: n / 1000)

@@ -1,7 +1,8 @@
 """Reads G-code on the PC: what a file asks for, without a board.
 
 The firmware has the last word on what is valid. This reader serves the dry run, the progress bar,
-the plots and the tests, and knows the words of StepMite: G0 G1 G4 G90 G91 G92 M3 M5 X Y Z A F P.
+the plots and the tests, and knows the words of StepMite: G0 G1 G2 G3 G4 G17 G18 G19 G61 G61.1 G64
+G90 G91 G92 M3 M5 X Y Z A F I J K R P.
 """
 
 from __future__ import annotations
@@ -11,10 +12,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from stepmite.arcs import PLANES, Arc, Position, read_arc
+
 AXES = "XYZA"
 """Axis letters in the order of every position tuple; X Y Z in mm, A in degrees."""
-
-Position = tuple[float, float, float, float]
 
 _WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))")
 _COMMENT = re.compile(r"\([^()]*\)")
@@ -31,6 +32,16 @@ class GcodeError(Exception):
 
 
 @dataclass(frozen=True)
+class PathMode:
+    """How corners are passed."""
+
+    kind: str = "G64"
+    """"G61" exact path, "G61.1" exact stop at each end, "G64" continuous."""
+    tolerance_mm: float = 0.0
+    """G64 P: how far a blend may leave the corner; 0: the path is exact, by junction deviation."""
+
+
+@dataclass(frozen=True)
 class Block:
     """One entry of the block ring: a move, a dwell or a spindle switch."""
 
@@ -43,6 +54,10 @@ class Block:
     """mm/min (deg/min where only A moves); None: as fast as the axes can (G0)."""
     dwell_s: float = 0.0
     spindle_on: bool = False
+    arc: Arc | None = None
+    """The arc of G2 and G3; None: a straight line."""
+    path_mode: PathMode = PathMode()
+    """In force at the corner before the block."""
 
 
 def strip_comments(line: str) -> str:
@@ -83,6 +98,10 @@ class Reader:
     absolute: bool = True
     motion: str | None = None
     feed_per_min: float | None = None
+    plane: str = "G17"
+    path_mode: PathMode = field(default_factory=PathMode)
+    arcs_turn_a: bool = True
+    """False: an A word in a line with an arc is ignored (STEPPER ARC LEGACY 1)."""
 
     def work_position(self) -> Position:
         """Return the position as the program counts it, mm and degrees."""
@@ -102,7 +121,7 @@ class Reader:
         for letter, value in words:
             if letter in "GM":
                 codes.append(f"{letter}{value:g}")
-            elif letter not in "XYZAFP":
+            elif letter not in "XYZAFIJKRP":
                 raise ValueError(f"word {letter} is not supported")
             elif letter in values:
                 raise ValueError(f"{letter} occurs twice")
@@ -118,17 +137,13 @@ class Reader:
             self.feed_per_min = values["F"]
         once = None
         for code in codes:
-            if code in ("G0", "G1"):
-                self.motion = code
-            elif code in ("G90", "G91"):
-                self.absolute = code == "G90"
-            elif code in ("G4", "G92"):
+            if code in ("G4", "G92"):
                 once = code
             elif code in ("M3", "M5"):
                 on = code == "M3"
                 blocks.append(Block("spindle", line_number, self.position, spindle_on=on))
             else:
-                raise ValueError(f"{code} is not supported")
+                self._set_mode(code, values)
         axes = {letter: values[letter] for letter in AXES if letter in values}
         if once == "G4":
             if "P" not in values:
@@ -138,30 +153,57 @@ class Reader:
             if not axes:
                 raise ValueError("G92 without an axis")
             self._shift(axes)
-        elif axes and blocks:
-            raise ValueError("a move and M3 or M5 need a line each")
-        elif axes:
-            blocks.append(self._move(line_number, axes))
+        elif axes or (self.motion in ("G2", "G3") and any(word in values for word in "IJKR")):
+            if blocks:
+                raise ValueError("a move and M3 or M5 need a line each")
+            blocks.append(self._move(line_number, axes, values))
+        elif any(word in values for word in "IJKR"):
+            raise ValueError("I J K R without an arc")
         return blocks
+
+    def _set_mode(self, code: str, values: dict[str, float]) -> None:
+        if code in ("G0", "G1", "G2", "G3"):
+            self.motion = code
+        elif code in ("G90", "G91"):
+            self.absolute = code == "G90"
+        elif code in PLANES:
+            self.plane = code
+        elif code in ("G61", "G61.1"):
+            self.path_mode = PathMode(code)
+        elif code == "G64":
+            if values.get("P", 0.0) < 0:
+                raise ValueError("P must not be below 0")
+            self.path_mode = PathMode(code, values.get("P", 0.0))
+        else:
+            raise ValueError(f"{code} is not supported")
 
     def _shift(self, axes: dict[str, float]) -> None:
         for index, letter in enumerate(AXES):
             if letter in axes:
                 self.offset[index] = self.position[index] - axes[letter]
 
-    def _move(self, line_number: int, axes: dict[str, float]) -> Block:
+    def _move(self, line_number: int, axes: dict[str, float], values: dict[str, float]) -> Block:
         if self.motion is None:
-            raise ValueError("a position without G0 or G1")
-        if self.motion == "G1" and self.feed_per_min is None:
-            raise ValueError("G1 before any F")
-        target = list(self.position)
+            raise ValueError("a position without a motion mode, G0 to G3")
+        if self.motion != "G0" and self.feed_per_min is None:
+            raise ValueError(f"{self.motion} before any F")
+        curved = self.motion in ("G2", "G3")
+        if curved and not self.arcs_turn_a:
+            axes = {letter: value for letter, value in axes.items() if letter != "A"}
+        elif not curved and any(word in values for word in "IJKR"):
+            raise ValueError("I J K R without an arc")
+        start, target = self.position, list(self.position)
         for index, letter in enumerate(AXES):
             if letter in axes:
                 base = self.offset[index] if self.absolute else self.position[index]
                 target[index] = base + axes[letter]
-        self.position = (target[0], target[1], target[2], target[3])
+        end = target[0], target[1], target[2], target[3]
+        arc = None
+        if curved:
+            arc = read_arc(self.motion == "G2", PLANES[self.plane], start, end, values)
+        self.position = end
         feed = None if self.motion == "G0" else self.feed_per_min
-        return Block("move", line_number, self.position, feed)
+        return Block("move", line_number, end, feed, arc=arc, path_mode=self.path_mode)
 
 
 def read_lines(path: Path) -> list[str]:

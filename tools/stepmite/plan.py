@@ -1,7 +1,8 @@
 """How long a program takes: the firmware's trapezoid plan, in floating point on the PC.
 
-Corners by junction deviation, look-ahead over the whole program. Used for the time estimate and the
-progress bar, and by the tests as the ideal profile to compare a trace with.
+Corners by junction deviation or by blends (G64 P), arcs as one block, look-ahead over the whole
+program. Used for the time estimate and the progress bar, and by the tests as the ideal profile to
+compare a trace with. What jerk limits add is not in it.
 """
 
 from __future__ import annotations
@@ -11,7 +12,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from stepmite.gcode import Block, Position
+from stepmite.arcs import Arc, Position
+from stepmite.gcode import Block
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,9 @@ class Planned:
     start: Position
     length: float
     direction: Position
-    """Movement of each axis for one unit of `length`."""
+    """Movement of each axis for one unit of `length`, at the start of the block."""
+    end_direction: Position
+    """The same at its end; another one on arcs."""
     nominal: float
     """Feed after the limits of the axes, mm/s."""
     acceleration: float
@@ -91,42 +95,151 @@ def _limit(direction: Position, limits: Position) -> float:
     )
 
 
+ARC_SHARE = 0.866
+"""Part of the acceleration that an arc may use to turn; half is then left along the path."""
+
+
 def _describe(block: Block, start: Position, machine: Machine) -> Planned:
     delta = [b - a for a, b in zip(start, block.target, strict=True)]
     length = math.hypot(*delta[:3]) or abs(delta[3])
+    if block.arc is not None:
+        length = block.arc.length(start, block.target)
     if block.kind != "move" or length == 0:
-        return Planned(block, start, 0.0, (0.0,) * 4, 0.0, 1.0)
+        return Planned(block, start, 0.0, (0.0,) * 4, (0.0,) * 4, 0.0, 1.0)
+    if block.arc is not None:
+        return _describe_arc(block, block.arc, start, length, machine)
     x, y, z, a = (part / length for part in delta)
     direction = (x, y, z, a)
     nominal = _limit(direction, machine.max_velocity)
     if block.feed_per_min is not None:
         nominal = min(nominal, block.feed_per_min / 60)
     acceleration = _limit(direction, machine.max_acceleration)
-    return Planned(block, start, length, direction, nominal, acceleration)
+    return Planned(block, start, length, direction, direction, nominal, acceleration)
 
 
-def junction_speed(before: Position, after: Position, machine: Machine) -> float:
-    """Return the speed allowed in the corner between two directions, mm/s."""
-    norm_before, norm_after = math.hypot(*before), math.hypot(*after)
-    unit_before = [part / norm_before for part in before]
-    unit_after = [part / norm_after for part in after]
-    cosine = -sum(a * b for a, b in zip(unit_before, unit_after, strict=True))
-    if cosine > 0.999999:
+def _describe_arc(
+    block: Block, arc: Arc, start: Position, length: float, machine: Machine
+) -> Planned:
+    x, y, z, a = (part / length for part in arc.slope(start, block.target, 0.0))
+    end = arc.slope(start, block.target, 1.0)
+    in_plane = arc.radius * abs(arc.sweep) / length
+    shares = [abs(x), abs(y), abs(z), abs(a)]
+    for axis in arc.plane:
+        shares[axis] = in_plane
+    along = (shares[0], shares[1], shares[2], shares[3])
+    plane_limit = min(machine.max_acceleration[axis] for axis in arc.plane)
+    nominal = min(
+        _limit(along, machine.max_velocity),
+        math.sqrt(ARC_SHARE * plane_limit * arc.radius) / in_plane,
+        (block.feed_per_min or math.inf) / 60,
+    )
+    inwards = (nominal * in_plane) ** 2 / arc.radius
+    left = math.sqrt(plane_limit**2 - inwards**2)
+    limits = list(machine.max_acceleration)
+    for axis in arc.plane:
+        limits[axis] = left
+    acceleration = _limit(along, (limits[0], limits[1], limits[2], limits[3]))
+    end_direction = (end[0] / length, end[1] / length, end[2] / length, end[3] / length)
+    return Planned(block, start, length, (x, y, z, a), end_direction, nominal, acceleration)
+
+
+REVERSAL = 3.99999
+STRAIGHT_ON = 1e-9
+"""Squares of the difference of two unit vectors: back the same way, on the same way."""
+
+
+def _turn(before: Position, after: Position) -> tuple[Position, float]:
+    """Return the change of the unit direction in a corner and its square."""
+    norms = math.hypot(*before), math.hypot(*after)
+    x, y, z, a = (v / norms[1] - u / norms[0] for u, v in zip(before, after, strict=True))
+    return (x, y, z, a), x * x + y * y + z * z + a * a
+
+
+def junction_speed(
+    before: Position, after: Position, machine: Machine, half_length: float = math.inf
+) -> float:
+    """Return the speed allowed in the corner between two directions, mm/s.
+
+    Junction deviation; and the arc thought in the corner leaves each block by its middle, the
+    nearer of which is `half_length` away.
+    """
+    change, square = _turn(before, after)
+    if square > REVERSAL:
         return 0.0
-    if cosine < -0.999999:
+    if square < STRAIGHT_ON:
         return math.inf
-    sine = math.sqrt((1 - cosine) / 2)
-    change = [b - a for a, b in zip(unit_before, unit_after, strict=True)]
-    norm = math.hypot(*change)
-    x, y, z, a = (part / norm for part in change)
-    acceleration = _limit((x, y, z, a), machine.max_acceleration)
-    return math.sqrt(acceleration * machine.junction_deviation_mm * sine / (1 - sine))
+    half_sine = math.sqrt(square) / 2
+    half_cosine = math.sqrt(1 - square / 4)
+    acceleration = _limit(change, machine.max_acceleration) * math.sqrt(square)
+    by_deviation = machine.junction_deviation_mm * half_cosine * (1 + half_cosine) / half_sine**2
+    by_length = half_length * half_cosine / half_sine
+    return math.sqrt(acceleration * min(by_deviation, by_length))
+
+
+def _blend(before: Planned, after: Planned, machine: Machine) -> Planned | None:
+    """Return the parabola that G64 P puts into the corner between two lines, None: there is none.
+
+    It takes as much from the end of one line as from the start of the other, which is cut off here.
+    """
+    tolerance = after.block.path_mode.tolerance_mm
+    change, square = _turn(before.end_direction, after.direction)
+    if tolerance <= 0 or before.block.arc or after.block.arc or not STRAIGHT_ON < square < REVERSAL:
+        return None
+    reach = 4 * tolerance / math.sqrt(square)
+    for row in (before, after):
+        whole = math.dist(row.start, row.block.target)
+        reach = min(reach, whole / 2)
+    speed = math.sqrt(2 * reach * _limit(change, machine.max_acceleration))
+    scales = math.hypot(*before.end_direction), math.hypot(*after.direction)
+    before.length -= reach / scales[0]
+    after.length -= reach / scales[1]
+    length = reach / scales[0] + reach / scales[1]
+    nominal = min(speed / max(scales), before.nominal, after.nominal)
+    acceleration = min(before.acceleration, after.acceleration)
+    blend = Planned(
+        after.block,
+        before.block.target,
+        length,
+        before.end_direction,
+        after.direction,
+        nominal,
+        acceleration,
+    )
+    blend.entry_cap = nominal
+    after.entry_cap = nominal
+    return blend
+
+
+def _join(rows: list[Planned], row: Planned, machine: Machine) -> None:
+    """Say how fast the corner before `row` may be passed; may put a blend into it."""
+    before = rows[-1]
+    mode = row.block.path_mode
+    if mode.kind == "G61.1":
+        return
+    if mode.kind == "G61":
+        tangential = _turn(before.end_direction, row.direction)[1] < STRAIGHT_ON
+        row.entry_cap = min(row.nominal, before.nominal) if tangential else 0.0
+        return
+    blend = _blend(before, row, machine)
+    if blend is not None:
+        rows.append(blend)
+        return
+    lengths = (
+        before.length * math.hypot(*before.end_direction),
+        row.length * math.hypot(*row.direction),
+    )
+    ends = before.end_direction, row.direction
+    corner = junction_speed(*ends, machine, min(lengths) / 2)
+    row.entry_cap = min(corner, row.nominal, before.nominal)
 
 
 def plan(
     blocks: Iterable[Block], machine: Machine | None = None, start: Position = (0.0,) * 4
 ) -> list[Planned]:
-    """Return the blocks with their entry and exit speeds; moves of no length are left out."""
+    """Return the blocks with their entry and exit speeds; moves of no length are left out.
+
+    A blend (G64 P) is a row of its own, with the block that it leads to.
+    """
     machine = machine or Machine()
     rows: list[Planned] = []
     for block in blocks:
@@ -135,9 +248,9 @@ def plan(
         if block.kind == "move" and row.length == 0:
             continue
         if rows and row.length and rows[-1].length:
-            corner = junction_speed(rows[-1].direction, row.direction, machine)
-            row.entry_cap = min(corner, row.nominal, rows[-1].nominal)
+            _join(rows, row, machine)
         rows.append(row)
+    rows = [row for row in rows if row.length > 0 or row.block.kind != "move"]
     after = 0.0
     for row in reversed(rows):
         row.exit = after
