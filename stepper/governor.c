@@ -17,6 +17,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "stepper/path.h"
 #include "stepper/planner.h"
 #include "stepper/segment_writer.h"
 #include "stepper/step_isr.h"
@@ -43,32 +44,17 @@ static struct {
     bool idle_off;
     bool drivers_on;
 
-    const block_t *block;      // being executed, NULL: none
-    uint32_t dwell_left;       // ticks, of a dwell
-    uint64_t progress;         // of a move, in 2^-64 of its length
-    float speed;               // along the path now, units/s
-    int32_t start[AXIS_COUNT]; // steps, where the block began
-    float pending_ticks;       // computed way that has no segment yet
+    const block_t *block; // being executed, NULL: none
+    uint32_t dwell_left;  // ticks, of a dwell
+    uint64_t progress;    // of a move, in 2^-64 of its length
+    float speed;          // along the path now, units/s
+    float pending_ticks;  // computed way that has no segment yet
 } governor;
 
 // ---- The way along a move ------------------------------------------------------------------------
 
 static float remaining(void) {
     return (float)~governor.progress * (governor.block->move.length / PROGRESS_ONE);
-}
-
-static void target_at(uint64_t progress, int64_t target[AXIS_COUNT]) {
-    uint32_t fraction = (uint32_t)(progress >> 32);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t delta = (int64_t)governor.block->move.target[axis] - governor.start[axis];
-        target[axis] = governor.start[axis] * STEP_ONE + delta * fraction;
-    }
-}
-
-static void target_at_end(int64_t target[AXIS_COUNT]) {
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        target[axis] = governor.block->move.target[axis] * STEP_ONE;
-    }
 }
 
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
@@ -92,11 +78,14 @@ static float next_speed(float left, float dt, float exit_speed2) {
     return fmaxf(fmaxf(v1, v - change), 0.0f);
 }
 
-static void start_block(const block_t *block, const int32_t start[AXIS_COUNT]) {
+static void start_block(const block_t *block) {
     governor.block = block;
     governor.progress = 0;
     governor.dwell_left = block->kind == BLOCK_DWELL ? block->dwell_ticks : 0;
-    memcpy(governor.start, start, sizeof governor.start);
+    planner_start();
+    if (block_is_move(block)) {
+        path_begin(block);
+    }
 }
 
 static void finish_block(void) {
@@ -110,10 +99,11 @@ static void drop_blocks(void) {
     governor.speed = 0.0f;
     governor.pending_ticks = 0.0f;
     governor.stopping = false;
-    while (planner_front() != NULL) {
-        planner_release();
-    }
+    planner_release_all();
     segment_writer_settle();
+    int32_t steps[AXIS_COUNT];
+    segment_writer_end_steps(steps);
+    path_stand(steps);
     governor.drops = governor.drops + 1;
 }
 
@@ -129,15 +119,13 @@ static float pass_end(float left, float v1, float dt, float exit_speed2) {
     governor.speed = at_rest ? 0.0f : end_speed;
 
     int64_t target[AXIS_COUNT];
-    target_at_end(target);
+    path_end(target);
     if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
         write_way(target, at_rest);
     }
-    int32_t end[AXIS_COUNT];
-    memcpy(end, governor.block->move.target, sizeof end);
     finish_block();
     if (!at_rest) {
-        start_block(planner_front(), end);
+        start_block(planner_front());
     }
     return ticks;
 }
@@ -157,7 +145,7 @@ static void advance_move(void) {
             governor.speed = v1;
             governor.pending_ticks += ticks;
             int64_t target[AXIS_COUNT];
-            target_at(governor.progress, target);
+            path_at(governor.progress, target);
             bool stopped = (governor.stopping || governor.holding) && v1 <= 0.0f;
             write_way(target, stopped);
             if (stopped && governor.stopping) {
@@ -208,12 +196,12 @@ static bool advance(void) {
         return false;
     }
     if (governor.block == NULL) {
-        int32_t here[AXIS_COUNT];
-        segment_writer_end_steps(here);
-        start_block(front, here);
+        start_block(front);
     }
     switch (front->kind) {
-    case BLOCK_MOVE:
+    case BLOCK_LINE:
+    case BLOCK_ARC:
+    case BLOCK_BLEND:
         advance_move();
         break;
     case BLOCK_DWELL:
@@ -253,6 +241,7 @@ void governor_reset(const int32_t steps[AXIS_COUNT]) {
     memset(&governor, 0, sizeof governor);
     governor.pins = pins;
     segment_writer_reset(steps);
+    path_stand(steps);
 }
 
 void governor_set_pins(const governor_pins_t *pins) {
@@ -275,6 +264,7 @@ void governor_disarm(void) {
 
 void governor_set_position(const int32_t steps[AXIS_COUNT]) {
     segment_writer_reset(steps);
+    path_stand(steps);
 }
 
 void governor_stop(void) {
@@ -289,6 +279,7 @@ void governor_emergency_stop(void) {
     step_isr_abort();
     drop_blocks();
     segment_writer_reset(steps);
+    path_stand(steps);
     bool spindle_off_level = governor.pins.spindle_inverted;
     hal_pins_set(spindle_off_level ? governor.pins.spindle : 0);
     hal_pins_clear(spindle_off_level ? 0 : governor.pins.spindle);

@@ -1,29 +1,27 @@
 // Look-ahead. A block may be entered no faster than its corner allows and no faster than lets it brake
 // for all that follows: entry^2 <= next entry^2 + 2 * acceleration * length, the last one ending at
-// rest. Entry speeds are upper bounds, so no forward pass is needed: the governor accelerates
-// within the limits anyway, and arriving slower than planned is always safe.
+// rest. Entry speeds are upper bounds: the governor accelerates within the limits anyway, and arriving
+// slower than planned is always safe.
 //
 //   cap   ----.   .---------.        entry_cap: corner and feed
 //             |   |         |
 //   entry --. '---'     .   '--.     entry: what braking allows, from the newest block backwards
 //            \_________/ \      \ 0
 //
-// Corner speed: junction deviation. The corner is thought replaced by an arc that passes at most
-// `deviation` from it; v^2 = a * r on that arc. An arc must also leave each block at its middle at the
-// latest, so on a polygon with many corners v^2 / r of the circle stays within the acceleration too.
-// Context: main loop; the passes run with the governor locked.
+// With climb(k) = the sum of 2 * acceleration * length of all blocks before k this reads
+// entry(k)^2 = min over all n >= k of (cap(n)^2 + climb(n)) - climb(k). The bracket does not depend on k, so
+// nothing is ever planned anew: a queue of the blocks whose bracket is below those of all later ones has the
+// answer at its front. A new block takes those above its own off the back, each block once. The end
+// of the path, cap 0, moves with each block and is kept beside the queue. These are also the only places
+// that the governor has to look at when it limits the jerk.
+// Context: main loop, the queue with the governor locked; the governor for what its section says.
 #include "stepper/planner.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "stepper/axis.h"
-
-// |u - u_prev|^2 = 2 (1 - cos) for unit vectors: straight on below the first, back the same way
-// above the second.
-#define STRAIGHT_ON 1e-9f
-#define REVERSAL 3.99999f
+#include "stepper/geometry.h"
 
 planner_ring_t blocks;
 
@@ -31,14 +29,23 @@ static struct {
     double commanded[AXIS_COUNT]; // end of the last move, units, also if it was too short to queue
     double target[AXIS_COUNT];    // end of the last queued move, units
     int32_t target_steps[AXIS_COUNT];
-    float direction[AXIS_COUNT]; // of the last queued block; all 0: it was not a move
-    float length;                // of the last queued move
-    float deviation;
+    bool corner; // the last queued block is a move, `last` is what it is like
+    geometry_t last;
 } planner;
+
+static const span_t span_unlimited = {.acceleration = UINT16_MAX, .jerk = UINT8_MAX};
+
+static void clear_binding(void) {
+    blocks.binding.first = 0;
+    blocks.binding.count = 0;
+    blocks.end_span = span_unlimited;
+}
 
 void planner_reset(uint32_t size) {
     ring_reset(&blocks.ring, size);
-    memset(planner.direction, 0, sizeof planner.direction);
+    clear_binding();
+    blocks.front_started = false;
+    planner.corner = false;
 }
 
 void planner_set_scale(void) {
@@ -57,19 +64,11 @@ void planner_set_position(const int32_t steps[AXIS_COUNT]) {
         planner.target[axis] = axis_from_steps(axis, steps[axis]);
         planner.commanded[axis] = planner.target[axis];
     }
-    memset(planner.direction, 0, sizeof planner.direction);
+    planner.corner = false;
 }
 
 void planner_target(double target[AXIS_COUNT]) {
     memcpy(target, planner.commanded, sizeof planner.commanded);
-}
-
-void planner_set_junction_deviation(float deviation_mm) {
-    planner.deviation = deviation_mm;
-}
-
-float planner_junction_deviation(void) {
-    return planner.deviation;
 }
 
 static v2_t v2_from(float speed2) {
@@ -77,90 +76,95 @@ static v2_t v2_from(float speed2) {
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
-// ---- Geometry of a new move ----------------------------------------------------------------------
+// ---- Spans ---------------------------------------------------------------------------------------
 
-typedef struct {
-    float direction[AXIS_COUNT];
-    float length;      // in all axes
-    float feed_length; // what the feed counts: X, Y, Z; A if it moves alone
-    float axes_speed;
-    float feed; // 0: rapid
-    float acceleration;
-} geometry_t;
+#define JERK_CODE_BASE ((127u - 20u) << 2) // of 2^-20
 
-static void measure(geometry_t *g, const double target[AXIS_COUNT]) {
-    double delta[AXIS_COUNT];
-    double linear2 = 0.0;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        delta[axis] = target[axis] - planner.target[axis];
-        linear2 += axis < AXIS_A ? delta[axis] * delta[axis] : 0.0;
-    }
-    double length = sqrt(linear2 + delta[AXIS_A] * delta[AXIS_A]);
-    g->length = (float)length;
-    g->feed_length = linear2 > 0.0 ? sqrtf((float)linear2) : g->length;
-    float per_length = 1.0f / g->length;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        g->direction[axis] = (float)delta[axis] * per_length;
-    }
+static uint32_t float_bits(float value) {
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
-static void limit(geometry_t *g, const stepper_move_t *move) {
-    g->feed = move->rapid ? 0.0f : (float)move->feed / 60.0f * (g->length / g->feed_length);
-    g->axes_speed = FLT_MAX;
-    g->acceleration = FLT_MAX;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        float share = fabsf(g->direction[axis]);
-        if (share > 0.0f && axes[axis].configured) {
-            g->axes_speed = fminf(g->axes_speed, axes[axis].velocity / share);
-            g->acceleration = fminf(g->acceleration, axes[axis].acceleration / share);
-        }
-    }
+static float float_from_bits(uint32_t bits) {
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
-// Acceleration that the axes together allow in the direction of `change`, whose length is `size`.
-static float acceleration_along(const float change[AXIS_COUNT], float size) {
-    float acceleration = FLT_MAX;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        float share = fabsf(change[axis]) / size;
-        if (share > 1e-6f && axes[axis].configured) {
-            acceleration = fminf(acceleration, axes[axis].acceleration / share);
-        }
+static span_t span_of(const block_t *block) {
+    if (!block_is_move(block)) {
+        return span_unlimited;
     }
-    return acceleration;
+    uint32_t jerk = float_bits(block->move.jerk) >> 21;
+    jerk = jerk > JERK_CODE_BASE ? jerk - JERK_CODE_BASE : 0;
+    return (span_t){
+        .acceleration = (uint16_t)(float_bits(block->move.acceleration) >> 16),
+        .jerk = (uint8_t)(jerk < UINT8_MAX ? jerk : UINT8_MAX),
+    };
 }
 
-// Square of the speed that the corner between the last queued move and `g` allows.
-static float corner_speed2(const geometry_t *g) {
-    float change[AXIS_COUNT];
-    float change2 = 0.0f;
-    float previous2 = 0.0f;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        change[axis] = g->direction[axis] - planner.direction[axis];
-        change2 += change[axis] * change[axis];
-        previous2 += planner.direction[axis] * planner.direction[axis];
-    }
-    if (previous2 == 0.0f || change2 > REVERSAL) {
-        return 0.0f;
-    }
-    if (change2 < STRAIGHT_ON) {
-        return FLT_MAX;
-    }
-    // With phi the angle between the moves: change2 / 4 = sin^2(phi/2). Junction deviation in the
-    // usual form is r = deviation * s / (1 - s), s = cos(phi/2); 1 - s = sin^2(phi/2) / (1 + s) keeps
-    // its precision at small angles.
-    float sin2 = change2 * 0.25f;
-    float s = sqrtf(1.0f - sin2);
-    float acceleration = acceleration_along(change, sqrtf(change2));
-    float by_deviation = acceleration * planner.deviation * s * (1.0f + s) / sin2;
-    float half_length = 0.5f * fminf(g->length, planner.length);
-    float by_length = acceleration * half_length * s / sqrtf(sin2);
-    return fminf(by_deviation, by_length);
+float span_acceleration(span_t span) {
+    return float_from_bits((uint32_t)span.acceleration << 16);
 }
 
-// ---- The ring ------------------------------------------------------------------------------------
+float span_jerk(span_t span) {
+    return float_from_bits((span.jerk + JERK_CODE_BASE) << 21);
+}
+
+span_t span_least(span_t a, span_t b) {
+    return (span_t){
+        .acceleration = a.acceleration < b.acceleration ? a.acceleration : b.acceleration,
+        .jerk = a.jerk < b.jerk ? a.jerk : b.jerk,
+    };
+}
+
+// ---- The queue of binding caps -------------------------------------------------------------------
 
 static uint32_t slot_before(uint32_t slot) {
     return slot > 0 ? slot - 1 : blocks.ring.size - 1;
+}
+
+static uint32_t binding_index(uint32_t n) {
+    uint32_t index = blocks.binding.first + n;
+    return index < STEPPER_BLOCKS_MAX ? index : index - STEPPER_BLOCKS_MAX;
+}
+
+// What is `length` of way and `gain` of speed further on.
+static void set_end(const block_t *block) {
+    blocks.end_way = block->way;
+    blocks.end_climb = block->climb;
+    if (block_is_move(block)) {
+        blocks.end_way += (uint32_t)(block->move.length * WAY_ONE + 0.5f);
+        blocks.end_climb += v2_from(2.0f * block->move.acceleration * block->move.length);
+    }
+}
+
+// Takes up the entry cap of the newest block; way and climb are known.
+static void bind(uint32_t slot) {
+    block_t *block = &blocks.slots[slot];
+    if (block->binds) {
+        v2_t cap = block_is_move(block) ? block->move.entry_cap : 0;
+        uint64_t key = block->climb + cap;
+        span_t span = blocks.end_span;
+        while (blocks.binding.count > 0) {
+            uint32_t last = binding_index(blocks.binding.count - 1);
+            const block_t *other = &blocks.slots[blocks.binding.slot[last]];
+            if (other->climb + blocks.binding.cap[last] < key) {
+                break;
+            }
+            span = span_least(span, (span_t){other->span_acceleration, other->span_jerk});
+            blocks.binding.count--;
+        }
+        block->span_acceleration = span.acceleration;
+        block->span_jerk = span.jerk;
+        uint32_t index = binding_index(blocks.binding.count);
+        blocks.binding.slot[index] = (uint16_t)slot;
+        blocks.binding.cap[index] = cap;
+        blocks.binding.count++;
+        blocks.end_span = span_unlimited;
+    }
+    blocks.end_span = span_least(blocks.end_span, span_of(block));
 }
 
 static float top_speed(const block_t *move, const planner_override_t *override) {
@@ -172,122 +176,184 @@ float planner_top_speed(const block_t *move) {
     return top_speed(move, &blocks.override);
 }
 
-// The corner within the speeds on both sides of it.
-static v2_t entry_cap(const block_t *before, const block_t *block,
-                      const planner_override_t *override) {
-    if (before->kind != BLOCK_MOVE) {
-        return 0;
+// The corner within the speeds on both sides of it. It binds unless the block before is that slow anyway.
+static void find_entry_cap(const block_t *before, block_t *block,
+                           const planner_override_t *override) {
+    block->binds = true;
+    if (!block_is_move(block)) {
+        return;
     }
-    float top = fminf(top_speed(before, override), top_speed(block, override));
-    v2_t sides = v2_from(top * top);
-    return sides < block->move.corner ? sides : block->move.corner;
+    block->move.entry_cap = 0;
+    if (!block_is_move(before) || block->move.corner == 0) {
+        return;
+    }
+    float speed_before = top_speed(before, override);
+    float speed = top_speed(block, override);
+    v2_t side = v2_from(speed * speed);
+    v2_t cap = side < block->move.corner ? side : block->move.corner;
+    block->move.entry_cap = cap;
+    block->binds = cap < v2_from(speed_before * speed_before);
 }
 
-// Backwards from the newest block to the one being executed, whose entry is history. Unless all caps
-// are new it ends where an entry stays as it was: nothing before it can change then.
-static void plan_backwards(bool all) {
-    uint32_t used = ring_used(&blocks.ring);
-    uint32_t slot = blocks.ring.put_slot;
-    v2_t exit = 0;
-    for (uint32_t waiting = used; waiting > 1; waiting--) {
-        slot = slot_before(slot);
-        block_t *block = &blocks.slots[slot];
-        if (block->kind != BLOCK_MOVE) {
-            if (!all) {
-                return; // at rest there, and so it was before
-            }
-            exit = 0;
-            continue;
-        }
-        v2_t reachable = block->move.gain < V2_MAX - exit ? block->move.gain + exit : V2_MAX;
-        v2_t entry = reachable < block->move.entry_cap ? reachable : block->move.entry_cap;
-        if (!all && entry == block->move.entry && waiting < used) {
-            return;
-        }
-        block->move.entry = entry;
-        exit = entry;
-    }
-}
+// ---- New blocks ----------------------------------------------------------------------------------
 
 static block_t *next_slot(void) {
     return &blocks.slots[blocks.ring.put_slot];
 }
 
-void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
+// Puts the block in next_slot(), whose own part is filled in, behind all others.
+static void push_block(void) {
+    uint32_t slot = blocks.ring.put_slot;
+    block_t *block = &blocks.slots[slot];
+    find_entry_cap(&blocks.slots[slot_before(slot)], block, &blocks.override);
+    hal_governor_lock();
+    if (ring_used(&blocks.ring) == 0) {
+        clear_binding();
+        block->binds = false; // it starts at rest
+    }
+    block->way = blocks.end_way;
+    block->climb = blocks.end_climb;
+    bind(slot);
+    set_end(block);
+    ring_put(&blocks.ring);
+    hal_governor_unlock();
+}
+
+static void fill_move(block_t *block, const geometry_t *g, float corner2,
+                      const int32_t target_steps[AXIS_COUNT]) {
+    memcpy(block->move.target, target_steps, sizeof block->move.target);
+    block->move.length = g->length;
+    block->move.axes_speed = g->axes_speed;
+    block->move.feed = g->feed;
+    block->move.acceleration = g->acceleration;
+    block->move.jerk = g->jerk;
+    block->move.corner = v2_from(corner2);
+}
+
+void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
     memcpy(planner.commanded, move->target, sizeof planner.commanded);
     if (memcmp(target_steps, planner.target_steps, sizeof planner.target_steps) == 0) {
         return;
     }
+    double delta[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        delta[axis] = move->target[axis] - planner.target[axis];
+    }
     geometry_t g;
-    measure(&g, move->target);
-    limit(&g, move);
-
+    geometry_line(&g, delta, move);
+    geometry_even_out(&g);
     block_t *block = next_slot();
-    block->kind = BLOCK_MOVE;
-    memcpy(block->move.target, target_steps, sizeof block->move.target);
-    block->move.length = g.length;
-    block->move.axes_speed = g.axes_speed;
-    block->move.feed = g.feed;
-    block->move.acceleration = g.acceleration;
-    block->move.corner = v2_from(corner_speed2(&g));
-    const block_t *before = &blocks.slots[slot_before(blocks.ring.put_slot)];
-    block->move.entry_cap = block->move.corner > 0 ? entry_cap(before, block, &blocks.override) : 0;
-    block->move.entry = 0;
-    block->move.gain = v2_from(2.0f * g.acceleration * g.length);
+    *block = (block_t){.kind = BLOCK_LINE};
+    float corner2 = planner.corner ? geometry_corner_speed2(&planner.last, &g, move->corner) : 0.0f;
+    fill_move(block, &g, corner2, target_steps);
+    push_block();
 
     memcpy(planner.target, move->target, sizeof planner.target);
     memcpy(planner.target_steps, target_steps, sizeof planner.target_steps);
-    memcpy(planner.direction, g.direction, sizeof planner.direction);
-    planner.length = g.length;
-
-    hal_governor_lock();
-    ring_put(&blocks.ring);
-    plan_backwards(false);
-    hal_governor_unlock();
-}
-
-// The caps are no business of the governor's, so the long part runs unlocked; blocks that are executed
-// meanwhile keep their contents. Entries and factors change together.
-void planner_set_override(const planner_override_t *override) {
-    uint32_t slot = blocks.ring.put_slot;
-    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
-        slot = slot_before(slot);
-        block_t *block = &blocks.slots[slot];
-        if (block->kind == BLOCK_MOVE) {
-            block->move.entry_cap = entry_cap(&blocks.slots[slot_before(slot)], block, override);
-        }
-    }
-    hal_governor_lock();
-    blocks.override = *override;
-    plan_backwards(true);
-    hal_governor_unlock();
+    planner.last = g;
+    planner.corner = true;
 }
 
 void planner_push_dwell(uint32_t ticks) {
     *next_slot() = (block_t){.kind = BLOCK_DWELL, .dwell_ticks = ticks};
-    memset(planner.direction, 0, sizeof planner.direction);
-    ring_put(&blocks.ring);
+    planner.corner = false;
+    push_block();
 }
 
 void planner_push_pins(uint32_t set, uint32_t clear) {
     *next_slot() = (block_t){.kind = BLOCK_PINS, .pins = {.set = set, .clear = clear}};
-    memset(planner.direction, 0, sizeof planner.direction);
-    ring_put(&blocks.ring);
+    planner.corner = false;
+    push_block();
+}
+
+// The caps of the blocks are no business of the governor's, so the long part runs unlocked; blocks that
+// are executed meanwhile keep their contents. The queue and the factors change together.
+void planner_set_override(const planner_override_t *override) {
+    uint32_t slot = blocks.ring.put_slot;
+    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
+        slot = slot_before(slot);
+        find_entry_cap(&blocks.slots[slot_before(slot)], &blocks.slots[slot], override);
+    }
+    hal_governor_lock();
+    blocks.override = *override;
+    clear_binding();
+    slot = blocks.ring.take_slot;
+    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 0; waiting--) {
+        if (slot != blocks.ring.take_slot) {
+            bind(slot);
+        } else {
+            blocks.end_span = span_of(&blocks.slots[slot]);
+        }
+        slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+    }
+    hal_governor_unlock();
+}
+
+// ---- For the governor ----------------------------------------------------------------------------
+
+static const block_t *block_ahead(uint32_t n) {
+    if (ring_used(&blocks.ring) <= n) {
+        return NULL;
+    }
+    uint32_t slot = blocks.ring.take_slot + n;
+    return &blocks.slots[slot < blocks.ring.size ? slot : slot - blocks.ring.size];
 }
 
 const block_t *planner_front(void) {
-    return ring_used(&blocks.ring) > 0 ? &blocks.slots[blocks.ring.take_slot] : NULL;
+    return block_ahead(0);
 }
 
-float planner_exit_speed2(void) {
-    if (ring_used(&blocks.ring) < 2) {
-        return 0.0f;
+const block_t *planner_second(void) {
+    return block_ahead(1);
+}
+
+void planner_start(void) {
+    blocks.front_started = true;
+    if (blocks.binding.count > 0 &&
+        blocks.binding.slot[blocks.binding.first] == blocks.ring.take_slot) {
+        blocks.binding.first = binding_index(1);
+        blocks.binding.count--;
     }
-    uint32_t slot = blocks.ring.take_slot + 1 < blocks.ring.size ? blocks.ring.take_slot + 1 : 0;
-    const block_t *next = &blocks.slots[slot];
-    return next->kind == BLOCK_MOVE ? (float)next->move.entry * blocks.v2_unit : 0.0f;
 }
 
 void planner_release(void) {
+    blocks.front_started = false;
     ring_take(&blocks.ring);
+}
+
+void planner_release_all(void) {
+    while (ring_used(&blocks.ring) > 0) {
+        planner_release();
+    }
+    clear_binding();
+}
+
+float planner_exit_speed2(void) {
+    const block_t *second = planner_second();
+    if (second == NULL) {
+        return 0.0f;
+    }
+    uint64_t least = blocks.end_climb;
+    if (blocks.binding.count > 0) {
+        uint32_t first = blocks.binding.first;
+        uint64_t key = blocks.slots[blocks.binding.slot[first]].climb + blocks.binding.cap[first];
+        least = key < least ? key : least;
+    }
+    uint64_t entry2 = least - second->climb;
+    return (float)(v2_t)(entry2 < V2_MAX ? entry2 : V2_MAX) * blocks.v2_unit;
+}
+
+bool planner_bound(uint32_t n, planner_bound_t *bound) {
+    if (n < blocks.binding.count) {
+        uint32_t index = binding_index(n);
+        const block_t *block = &blocks.slots[blocks.binding.slot[index]];
+        bound->way = block->way;
+        bound->cap = blocks.binding.cap[index];
+        bound->span = (span_t){block->span_acceleration, block->span_jerk};
+        return true;
+    }
+    bound->way = blocks.end_way;
+    bound->cap = 0;
+    bound->span = blocks.end_span;
+    return n == blocks.binding.count;
 }

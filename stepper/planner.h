@@ -5,28 +5,52 @@
 
 #include "stepper/stepper.h"
 
-typedef enum { BLOCK_MOVE, BLOCK_DWELL, BLOCK_PINS } block_kind_t;
+typedef enum { BLOCK_LINE, BLOCK_ARC, BLOCK_BLEND, BLOCK_DWELL, BLOCK_PINS } block_kind_t;
 
-// Squares of speeds as the planner's passes use them: integers, scaled so that the fastest speed the
+// Squares of speeds as the planner counts them: integers, scaled so that the fastest speed the
 // machine can have on any path lies just below V2_MAX. See planner_set_scale().
 typedef uint32_t v2_t;
 #define V2_MAX ((v2_t)1 << 31)
 
-// The path of a move is a straight line in X, Y, Z and A; lengths and speeds along it count all four,
-// in units (mm and degrees) and units/s.
+// The least acceleration and jerk of some blocks in a row, rounded down: the upper half of a float, and its
+// exponent with two more bits. Codes compare like what they stand for.
 typedef struct {
-    block_kind_t kind;
+    uint16_t acceleration;
+    uint8_t jerk;
+} span_t;
+
+// Places along the path, in 2^-12 units and modulo 2^32: for differences.
+#define WAY_ONE 4096.0f
+
+// Lengths and speeds along a move count all four axes, in units (mm and degrees) and units/s.
+typedef struct {
+    block_kind_t kind : 4;
+    uint32_t plane : 3; // of an arc: index of planner_planes
+    bool binds : 1;     // its entry cap is below what the block before it may do anyway
+    uint8_t span_jerk;  // limits between the binding entry before this one and here
+    uint16_t span_acceleration;
+    uint32_t way;   // where it begins along the path
+    uint64_t climb; // v2_t that all moves before it can gain: the sum of 2 * acceleration * length
     union {
         struct {
-            int32_t target[AXIS_COUNT]; // steps, where the move ends
-            float length;               // units, > 0
+            int32_t target[AXIS_COUNT]; // steps, where the move ends as it was programmed
+            float length;               // units, > 0, of what is left of it between blends
             float axes_speed;           // units/s, the most that the axes allow
             float feed;         // units/s, as programmed; 0: rapid, as fast as the axes allow
             float acceleration; // units/s^2
+            float jerk;         // units/s^3; 0: trapezoid
             v2_t corner;        // speed that the corner before it allows
-            v2_t entry_cap;     // the same, within what is allowed on both sides of the corner
-            v2_t entry;         // planned speed at its start
-            v2_t gain;          // 2 * acceleration * length
+            v2_t entry_cap; // the same, within what is allowed on both sides of the corner; main
+            union {
+                struct {
+                    // What the blends before and behind it cut off, in 2^-32 of the programmed line.
+                    uint32_t lead_in, lead_out;
+                } line;
+                struct {
+                    float centre[2]; // units from the start, along the axes of the plane
+                    float turns;     // > 0 counter-clockwise
+                } arc;
+            };
         } move;
         uint32_t dwell_ticks;
         struct {
@@ -43,7 +67,19 @@ typedef struct {
 typedef struct {
     ring_t ring;
     block_t slots[STEPPER_BLOCKS_MAX];
-    float v2_unit; // (units/s)^2 of one v2_t step
+    // The blocks whose entry cap binds: none of the later ones makes the machine slower there
+    // anyway. In the order of the path, see planner.c.
+    struct {
+        uint16_t slot[STEPPER_BLOCKS_MAX];
+        v2_t cap[STEPPER_BLOCKS_MAX];
+        uint32_t first, count; // index of the nearest one
+    } binding;
+    // Behind the newest block.
+    uint32_t end_way;
+    uint64_t end_climb;
+    span_t end_span;
+    bool front_started; // the governor has begun with the front block
+    float v2_unit;      // (units/s)^2 of one v2_t step
     planner_override_t override;
 } planner_ring_t;
 
@@ -61,9 +97,6 @@ void planner_set_position(const int32_t steps[AXIS_COUNT]);
 // The end of the last queued move, unrounded, in units.
 void planner_target(double target[AXIS_COUNT]);
 
-void planner_set_junction_deviation(float deviation_mm);
-float planner_junction_deviation(void);
-
 // Plans the whole ring anew with these overrides. Context: main.
 void planner_set_override(const planner_override_t *override);
 
@@ -72,16 +105,42 @@ float planner_top_speed(const block_t *move);
 
 // Puts a move, whose target has been checked, behind all others and re-plans the ring. A move
 // shorter than half a step of each axis is not queued: its way is part of the next one.
-void planner_push_move(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
+void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
 void planner_push_dwell(uint32_t ticks);
 void planner_push_pins(uint32_t set, uint32_t clear);
 
-// The speed with which the governor may leave the block at `take_slot`, in (units/s)^2.
-// Context: governor.
+static inline bool block_is_move(const block_t *block) {
+    return block->kind <= BLOCK_BLEND;
+}
+
+// ---- For the governor ----------------------------------------------------------------------------
+
+// The block to execute and the one behind it, NULL if there is none.
+const block_t *planner_front(void);
+const block_t *planner_second(void);
+
+// The front block is executed from now on; later it is done.
+void planner_start(void);
+void planner_release(void);
+void planner_release_all(void);
+
+// The speed with which braking alone allows to leave the front block, in (units/s)^2.
 float planner_exit_speed2(void);
 
-// The block to execute, NULL if there is none; and its release. Context: governor.
-const block_t *planner_front(void);
-void planner_release(void);
+// A place ahead that must not be passed faster than `cap`, and the limits between the one before and it.
+typedef struct {
+    uint32_t way;
+    v2_t cap;
+    span_t span;
+} planner_bound_t;
+
+// The n-th (0..) binding entry behind the front block, or at last the end of the queue, where the cap
+// is 0. False: there are no more.
+bool planner_bound(uint32_t n, planner_bound_t *bound);
+
+// The least of the limits a span code stands for.
+float span_acceleration(span_t span);
+float span_jerk(span_t span);
+span_t span_least(span_t a, span_t b);
 
 #endif

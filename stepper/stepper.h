@@ -16,6 +16,7 @@ typedef enum { AXIS_X, AXIS_Y, AXIS_Z, AXIS_A, AXIS_COUNT } axis_id_t;
 #define STEPPER_BLOCKS_MAX 1024u
 #define STEPPER_BLOCKS_DEFAULT 32u
 #define STEPPER_JUNCTION_DEVIATION_MM 0.02 // default
+#define STEPPER_JERK_DEFAULT 10000.0       // mm/s^3
 #define STEPPER_STEP_RATE_MAX_HZ 50000.0   // one step in every second tick
 
 // ---- Configuration -------------------------------------------------------------------------------
@@ -56,6 +57,15 @@ err_t stepper_spindle(uint8_t gpio, bool invert);
 
 // Junction deviation in mm (>= 0, 0 stops at every corner). Applies to moves queued from now on.
 err_t stepper_junction(double deviation_mm);
+
+// Whether moves queued from now on are jerk-limited (S-curve) or change their acceleration at once
+// (trapezoid). INIT: trapezoid.
+err_t stepper_scurve(bool on);
+
+// Jerk limits of moves queued from now on: along the path, and of each axis (0: none of its own), in
+// units/s^3. INIT: STEPPER_JERK_DEFAULT, none.
+// 0.001..1e9.
+err_t stepper_jerk(double path, const double axis[AXIS_COUNT]);
 
 // ---- Control -------------------------------------------------------------------------------------
 
@@ -100,15 +110,37 @@ err_t stepper_set_home(void);
 // Each call puts one entry behind all before it, or fails and changes nothing.
 // Errors of all: not initialised, queue full, stopping.
 
+// What happens where a move begins, coming from the one before it.
+typedef enum {
+    STEPPER_CORNER_CONTINUOUS, // passes the corner itself, as fast as the junction deviation allows
+    STEPPER_CORNER_EXACT,      // passes tangential joints, stops at every real corner
+    STEPPER_CORNER_STOP,       // always stops
+    STEPPER_CORNER_BLEND       // between lines: rounds the corner off within `blend_mm`
+} stepper_corner_t;
+
 typedef struct {
     double target[AXIS_COUNT]; // machine coordinates; axes that should not move: stepper_target()
     double feed; // units/min along X, Y, Z (A alone: degrees/min), 0.001..1e9; not if rapid
     bool rapid;  // as fast as the axes allow
+    stepper_corner_t corner;
+    double blend_mm; // > 0, with STEPPER_CORNER_BLEND
 } stepper_move_t;
 
 // A straight line. Further errors: position unknown, an axis that should move is not configured,
 // beyond the soft limits or what an int32 of steps can hold.
 err_t stepper_move(const stepper_move_t *move);
+
+// An arc in the plane of two axes; the other axes go along in proportion to the angle (helix). The end
+// point is move.target; what the radius there differs from the start's is spread over the arc.
+typedef struct {
+    stepper_move_t move;
+    axis_id_t plane[2]; // counter-clockwise is from the first to the second axis: X Y, Z X or Y Z
+    double centre[2];   // mm from the start, along these axes
+    double sweep;       // radians, > 0 counter-clockwise; beyond 2 pi: several turns
+} stepper_arc_t;
+
+// Errors: as stepper_move(); an arc is inside the soft limits if its whole way is.
+err_t stepper_arc(const stepper_arc_t *arc);
 
 // Waits at standstill. 0..STEPPER_DWELL_MAX_MS.
 #define STEPPER_DWELL_MAX_MS 86400000.0
@@ -120,10 +152,22 @@ err_t stepper_spindle_switch(bool on);
 // Where the last queued move ends; where the machine stands if none is queued.
 void stepper_target(double target[AXIS_COUNT]);
 
+// ---- Jogging -------------------------------------------------------------------------------------
+
+// Moves one axis by hand: by `distance` units from where it stands, or without end for INFINITY and
+// -INFINITY, at `feed` units/min (0: as fast as the axis allows). A further call while a jog is under way
+// gives it a new target from the present position, without a stop if the way to it allows that.
+// Brakes before the soft limits when the position is known. Needs no known position.
+// Errors: not armed, a job is running or queued, axis not configured, feed not positive.
+err_t stepper_jog(axis_id_t axis, double distance, double feed);
+
+// Brakes a jog to a standstill; nothing else is touched.
+err_t stepper_jog_stop(void);
+
 // ---- Reports -------------------------------------------------------------------------------------
 
 typedef struct {
-    bool initialized, armed, moving, stopping, holding, position_known, spindle_on;
+    bool initialized, armed, moving, stopping, holding, jogging, position_known, spindle_on;
     stepper_idle_t idle;
     uint32_t blocks, blocks_free;
     uint32_t executed; // queue entries carried out since INIT
@@ -131,6 +175,8 @@ typedef struct {
         underruns; // times the tick ran dry at speed since INIT; anything but 0 is a fault of ours
     int feed_override, rapid_override; // percent
     double junction_deviation_mm, arc_tolerance_mm;
+    bool scurve;
+    double jerk, axis_jerk[AXIS_COUNT]; // units/s^3; 0: the axis has no limit of its own
     uint8_t estop_gpio, spindle_gpio;
     bool estop_keeps_enabled, spindle_invert;
 } stepper_status_t;

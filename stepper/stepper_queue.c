@@ -43,7 +43,7 @@ err_t stepper_move(const stepper_move_t *move) {
     int32_t steps[AXIS_COUNT];
     err = check_target(move, steps);
     if (err == ERR_OK) {
-        planner_push_move(move, steps);
+        planner_push_line(move, steps);
         hal_governor_request();
     }
     return err;

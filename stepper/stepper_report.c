@@ -1,5 +1,6 @@
 // What may be asked of the machine. Context: main loop.
 #include "stepper/axis.h"
+#include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/machine.h"
 #include "stepper/planner.h"
@@ -24,13 +25,18 @@ void stepper_status(stepper_status_t *status) {
         .underruns = step_isr_dry_count(),
         .feed_override = machine.feed_override,
         .rapid_override = machine.rapid_override,
-        .junction_deviation_mm = (double)planner_junction_deviation(),
+        .junction_deviation_mm = (double)geometry_settings.deviation,
         .arc_tolerance_mm = machine.config.arc_tolerance_mm,
         .estop_gpio = machine.config.estop_gpio,
         .spindle_gpio = machine.spindle_gpio,
         .estop_keeps_enabled = machine.config.estop_keeps_enabled,
         .spindle_invert = machine.spindle_invert,
+        .scurve = geometry_settings.scurve,
+        .jerk = (double)geometry_settings.jerk,
     };
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        status->axis_jerk[axis] = (double)geometry_settings.axis_jerk[axis];
+    }
 }
 
 bool stepper_axis_configured(axis_id_t axis) {

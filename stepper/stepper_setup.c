@@ -1,5 +1,6 @@
 // Configuration: INIT, axes, limits, spindle, and giving it all back. Context: main loop.
 #include "stepper/axis.h"
+#include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/machine.h"
 #include "stepper/planner.h"
@@ -40,7 +41,10 @@ static void reset_motion(void) {
     machine.drops_seen = governor_drops();
     planner_set_scale();
     planner_set_position(zero);
-    planner_set_junction_deviation((float)STEPPER_JUNCTION_DEVIATION_MM);
+    geometry_settings = (geometry_settings_t){
+        .deviation = (float)STEPPER_JUNCTION_DEVIATION_MM,
+        .jerk = (float)STEPPER_JERK_DEFAULT,
+    };
     stepper_override(100, 100);
 }
 
@@ -136,9 +140,29 @@ err_t stepper_spindle(uint8_t gpio, bool invert) {
 err_t stepper_junction(double deviation_mm) {
     err_t err = machine_check_initialized();
     if (err == ERR_OK) {
-        planner_set_junction_deviation((float)deviation_mm);
+        geometry_settings.deviation = (float)deviation_mm;
     }
     return err;
+}
+
+err_t stepper_scurve(bool on) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        geometry_settings.scurve = on;
+    }
+    return err;
+}
+
+err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
+    err_t err = machine_check_initialized();
+    if (err != ERR_OK) {
+        return err;
+    }
+    geometry_settings.jerk = (float)path;
+    for (axis_id_t i = 0; i < AXIS_COUNT; i++) {
+        geometry_settings.axis_jerk[i] = (float)axis[i];
+    }
+    return ERR_OK;
 }
 
 err_t stepper_close(void) {

@@ -108,7 +108,7 @@ void bench_move(double x, double y, double z, double a, double feed) {
     while (stepper_blocks_free() == 0) {
         bench_wait_us(500);
     }
-    stepper_move_t move = {{x, y, z, a}, feed, feed == 0.0};
+    stepper_move_t move = {.target = {x, y, z, a}, .feed = feed, .rapid = feed == 0.0};
     TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, stepper_move(&move), err_message());
 }
 

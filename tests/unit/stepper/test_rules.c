@@ -11,7 +11,7 @@ static const stepper_init_t plain = {0.05, 32, PINS_NONE, false};
 static const stepper_axis_t x_axis = {2, 3, 4, false, 80, 6000, 500, 3};
 
 static stepper_move_t to(double x, double y) {
-    return (stepper_move_t){{x, y, 0, 0}, 600, false};
+    return (stepper_move_t){.target = {x, y, 0, 0}, .feed = 600};
 }
 
 static void check_refused(err_t expected, err_t actual, const char *message) {

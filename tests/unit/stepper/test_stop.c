@@ -23,7 +23,7 @@ static void test_stop_brakes_and_keeps_the_position(void) {
         }
         bench_wait_us((uint64_t)(rand() % 2000000));
         stepper_stop();
-        const stepper_move_t move = {{1, 2, 3, 4}, 6000, false};
+        const stepper_move_t move = {.target = {1, 2, 3, 4}, .feed = 6000, .rapid = false};
         TEST_ASSERT_EQUAL(ERR_STEPPER_STOPPING, stepper_move(&move));
         double time_s = bench_finish(1);
         TEST_ASSERT_TRUE(time_s < 0.23); // 100 mm/s at 500 mm/s^2, and what was computed ahead
@@ -140,7 +140,7 @@ static void check_estop_pin(bool keeps_enabled) {
     bench_wait_us(100000);
     TEST_ASSERT_LESS_OR_EQUAL_UINT64(pressed_ns, bench.last_step_ns); // no step after the next tick
     bench_check_positions();
-    const stepper_move_t move = {{1, 0, 0, 0}, 600, false};
+    const stepper_move_t move = {.target = {1, 0, 0, 0}, .feed = 600, .rapid = false};
     TEST_ASSERT_EQUAL(ERR_POSITION_UNKNOWN, stepper_move(&move)); // before anybody asked
     TEST_ASSERT_EQUAL(STEPPER_EVENT_ESTOP, stepper_next_event());
     TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());

@@ -1,0 +1,130 @@
+// What a new move is like: direction, length, limits, corners. Context: main loop.
+//
+// Corner speed: junction deviation. The corner is thought replaced by an arc that passes at most
+// `deviation` from it; v^2 = a * r on that arc. An arc must also leave each move at its middle at the
+// latest, so on a polygon with many corners v^2 / r of the circle stays within the acceleration too.
+#include "stepper/geometry.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "stepper/axis.h"
+
+// |u - u_prev|^2 / 4 = sin^2(phi/2) for unit vectors with the angle phi between them: straight on below the
+// first, back the same way above the last; above the second exact-path mode sees a corner (5 degrees).
+#define STRAIGHT_ON 2.5e-10f
+#define TANGENTIAL 1.9e-3f
+#define REVERSAL 0.9999975f
+// Joints that count as tangential in exact-path mode are passed with this deviation.
+#define TANGENTIAL_DEVIATION_MM 0.0005f
+
+geometry_settings_t geometry_settings;
+
+static float minimum(float a, float b) {
+    return a < b ? a : b;
+}
+
+// ---- Lines ---------------------------------------------------------------------------------------
+
+static void project_limits(geometry_t *g) {
+    const geometry_settings_t *settings = &geometry_settings;
+    g->axes_speed = FLT_MAX;
+    g->acceleration = FLT_MAX;
+    g->jerk = settings->scurve ? settings->jerk : 0.0f;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        float share = fabsf(g->start[axis]);
+        if (share <= 0.0f || !axes[axis].configured) {
+            continue;
+        }
+        g->axes_speed = minimum(g->axes_speed, axes[axis].velocity / share);
+        g->acceleration = minimum(g->acceleration, axes[axis].acceleration / share);
+        if (settings->axis_jerk[axis] > 0.0f) {
+            g->jerk = minimum(g->jerk, settings->axis_jerk[axis] / share);
+        }
+    }
+}
+
+void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_move_t *move) {
+    double linear2 = 0.0;
+    for (axis_id_t axis = 0; axis < AXIS_A; axis++) {
+        linear2 += delta[axis] * delta[axis];
+    }
+    double length = sqrt(linear2 + delta[AXIS_A] * delta[AXIS_A]);
+    g->length = (float)length;
+    float feed_length = linear2 > 0.0 ? sqrtf((float)linear2) : g->length;
+    float per_length = 1.0f / g->length;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        g->start[axis] = (float)delta[axis] * per_length;
+    }
+    memcpy(g->end, g->start, sizeof g->end);
+    g->feed = move->rapid ? 0.0f : (float)move->feed / 60.0f * (g->length / feed_length);
+    project_limits(g);
+}
+
+// ---- Corners -------------------------------------------------------------------------------------
+
+// Acceleration that the axes together allow in the direction of `change`, whose length is `size`.
+static float acceleration_along(const float change[AXIS_COUNT], float size) {
+    float acceleration = FLT_MAX;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        float share = fabsf(change[axis]) / size;
+        if (share > 1e-6f && axes[axis].configured) {
+            acceleration = minimum(acceleration, axes[axis].acceleration / share);
+        }
+    }
+    return acceleration;
+}
+
+float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,
+                             stepper_corner_t corner) {
+    float change[AXIS_COUNT];
+    float change2 = 0.0f;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        change[axis] = next->start[axis] - before->end[axis];
+        change2 += change[axis] * change[axis];
+    }
+    float sin2 = change2 * 0.25f;
+    bool exact = corner == STEPPER_CORNER_EXACT;
+    if (corner == STEPPER_CORNER_STOP || sin2 > REVERSAL || (exact && sin2 > TANGENTIAL)) {
+        return 0.0f;
+    }
+    if (sin2 < STRAIGHT_ON) {
+        return FLT_MAX;
+    }
+    // Junction deviation in the usual form is r = deviation * s / (1 - s), s = cos(phi/2);
+    // 1 - s = sin^2(phi/2) / (1 + s) keeps its precision at small angles.
+    float s = sqrtf(1.0f - sin2);
+    float acceleration = acceleration_along(change, sqrtf(change2));
+    float deviation = exact ? TANGENTIAL_DEVIATION_MM : geometry_settings.deviation;
+    float by_deviation = acceleration * deviation * s * (1.0f + s) / sin2;
+    float half_length = 0.5f * minimum(before->length, next->length);
+    float by_length = acceleration * half_length * s / sqrtf(sin2);
+    return minimum(by_deviation, by_length);
+}
+
+// ---- S-curves over many short moves --------------------------------------------------------------
+
+// A move that is over before the acceleration could be built up and taken back.
+static bool is_short(const geometry_t *g) {
+    float top = g->feed > 0.0f ? minimum(g->feed, g->axes_speed) : g->axes_speed;
+    return g->length * g->jerk < 2.0f * g->acceleration * top;
+}
+
+// The least acceleration in any direction near that of `g`: in a plane with equal axes the same in all.
+static float even_acceleration(const geometry_t *g) {
+    float acceleration = FLT_MAX;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        float share = fabsf(g->start[axis]) * 1.41422f;
+        if (share > 0.0f && axes[axis].configured) {
+            acceleration = minimum(acceleration, axes[axis].acceleration / minimum(share, 1.0f));
+        }
+    }
+    return minimum(acceleration, g->acceleration);
+}
+
+void geometry_even_out(geometry_t *g) {
+    if (g->jerk > 0.0f && is_short(g)) {
+        g->acceleration = even_acceleration(g);
+    }
+}
