@@ -1,12 +1,6 @@
-// The governor. Each slice of a millisecond it chooses the speed at the end of the slice: as fast as
-// acceleration and feed allow, but not so fast that braking could not meet the speed that the planner
-// set for the end of the block. The way made in the slice becomes a segment for the tick; a slice in
-// which blocks meet becomes one segment for each side, so that corners are passed where they are.
-//
-//   speed |       _______________           v1 = min(v + a dt, feed, braking curve)
-//         |     .'               '.
-//         |___.'                   '.___ exit speed of the block
-//         +--|--|--|--|--|--|--|--|--|-> slices
+// The governor. For each slice of a millisecond profile.c chooses the speed at its end. The way made in it
+// becomes a segment for the tick; a slice in which blocks meet becomes one segment for each
+// side, so that corners are passed where they are.
 //
 // Speeds are float: the way through a block is a fraction in 2^-64, so that neither a slow feed nor a
 // long move loses anything, and positions are steps in 2^-32. All of it is computed with single IEEE
@@ -19,6 +13,7 @@
 
 #include "stepper/path.h"
 #include "stepper/planner.h"
+#include "stepper/profile.h"
 #include "stepper/segment_writer.h"
 #include "stepper/step_isr.h"
 
@@ -30,8 +25,9 @@
 // Time the drivers get between being enabled and the first step.
 #define ENABLE_TICKS 5u
 // Computed ahead: more rides out longer delays of this interrupt, less reacts faster.
-#define AHEAD_TICKS 1600u
+#define AHEAD_TICKS 101u
 #define PROGRESS_ONE 18446744073709551616.0f // 2^64
+#define CHANGE_ONE 1073741824.0f             // 2^30, see segment_writer_move()
 
 static struct {
     governor_pins_t pins;
@@ -48,8 +44,18 @@ static struct {
     uint32_t dwell_left;  // ticks, of a dwell
     uint64_t progress;    // of a move, in 2^-64 of its length
     float speed;          // along the path now, units/s
+    float acceleration;   // of the piece that led here, units/s^2
     float pending_ticks;  // computed way that has no segment yet
+    float pending_from;   // speed at its beginning
 } governor;
+
+static float lesser(float a, float b) {
+    return a < b ? a : b;
+}
+
+static float greater(float a, float b) {
+    return a > b ? a : b;
+}
 
 // ---- The way along a move ------------------------------------------------------------------------
 
@@ -57,25 +63,20 @@ static float remaining(void) {
     return (float)~governor.progress * (governor.block->move.length / PROGRESS_ONE);
 }
 
-static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
-    segment_writer_move(target, governor.pending_ticks, 0, at_rest);
-    governor.pending_ticks = 0.0f;
+// Adds a piece in which the speed changes to `end_speed` to the way that has no segment yet.
+static void go_on(float ticks, float end_speed) {
+    if (governor.pending_ticks <= 0.0f) {
+        governor.pending_from = governor.speed;
+    }
+    governor.pending_ticks += ticks;
+    governor.speed = end_speed;
 }
 
-// Speed at the end of `dt`, with `left` to go to a point that may be passed at exit_speed2.
-// The last bound solves v1^2 = exit^2 + 2 a (left - (v + v1) / 2 dt): braking that starts behind this
-// slice still succeeds.
-static float next_speed(float left, float dt, float exit_speed2) {
-    const block_t *block = governor.block;
-    float v = governor.speed;
-    float change = block->move.acceleration * dt;
-    float top = governor.stopping || governor.holding ? 0.0f : planner_top_speed(block);
-    float v1 = fminf(v + change, top);
-    float root2 = change * change +
-                  4.0f * (exit_speed2 + 2.0f * block->move.acceleration * left - change * v);
-    float braking = root2 > 0.0f ? 0.5f * (sqrtf(root2) - change) : 0.0f;
-    v1 = fminf(v1, braking);
-    return fmaxf(fmaxf(v1, v - change), 0.0f);
+static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
+    float sum = governor.pending_from + governor.speed;
+    float change = sum > 0.0f ? (governor.speed - governor.pending_from) / sum : 0.0f;
+    segment_writer_move(target, governor.pending_ticks, (int32_t)(change * CHANGE_ONE), at_rest);
+    governor.pending_ticks = 0.0f;
 }
 
 static void start_block(const block_t *block) {
@@ -97,6 +98,7 @@ static void finish_block(void) {
 static void drop_blocks(void) {
     governor.block = NULL;
     governor.speed = 0.0f;
+    governor.acceleration = 0.0f;
     governor.pending_ticks = 0.0f;
     governor.stopping = false;
     planner_release_all();
@@ -107,20 +109,21 @@ static void drop_blocks(void) {
     governor.drops = governor.drops + 1;
 }
 
-// The move ends within the slice of `dt`. Returns the ticks of it that are used.
-static float pass_end(float left, float v1, float dt, float exit_speed2) {
+// The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the ticks of
+// it that are used.
+static float pass_end(float left, float v1, float dt) {
     float v = governor.speed;
     float acceleration = (v1 - v) / dt;
-    float end_speed = sqrtf(fmaxf(v * v + 2.0f * acceleration * left, 0.0f));
-    float time = v + end_speed > 0.0f ? fminf(2.0f * left / (v + end_speed), dt) : dt;
+    float end_speed = sqrtf(greater(v * v + 2.0f * acceleration * left, 0.0f));
+    float time = v + end_speed > 0.0f ? lesser(2.0f * left / (v + end_speed), dt) : dt;
     float ticks = time * (float)HAL_TICK_HZ;
-    bool at_rest = exit_speed2 <= 0.0f;
-    governor.pending_ticks += ticks;
-    governor.speed = at_rest ? 0.0f : end_speed;
+    bool at_rest = planner_exit_speed2() <= 0.0f;
+    go_on(ticks, at_rest ? 0.0f : end_speed);
+    governor.acceleration = at_rest ? 0.0f : acceleration;
 
-    int64_t target[AXIS_COUNT];
-    path_end(target);
     if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
+        int64_t target[AXIS_COUNT];
+        path_end(target);
         write_way(target, at_rest);
     }
     finish_block();
@@ -130,33 +133,55 @@ static float pass_end(float left, float v1, float dt, float exit_speed2) {
     return ticks;
 }
 
-// One slice of a move, through as many blocks as it touches and the segment ring has room for.
+static float next_speed(float left, float *ticks) {
+    bool braking = governor.stopping || governor.holding;
+    const profile_t now = {
+        .block = governor.block,
+        .left = left,
+        .top = braking ? 0.0f : planner_top_speed(governor.block),
+        .speed = governor.speed,
+        .acceleration = governor.acceleration,
+    };
+    return profile_next_speed(&now, ticks);
+}
+
+// One slice of a move, through as many blocks as it touches and the segment ring has room for. The
+// jerk-limited profile looks across blocks, so what it chose for the slice holds behind them as well.
 static void advance_move(void) {
+    bool chosen = false;
     float ticks = SLICE_TICKS;
     while (ticks >= 1.0f && segment_writer_has_room()) {
-        float dt = ticks * TICK_S;
+        float piece = ticks;
         float left = remaining();
-        float exit_speed2 = planner_exit_speed2();
-        float v1 = next_speed(left, dt, exit_speed2);
+        float v1 = chosen ? greater(governor.speed + governor.acceleration * piece * TICK_S, 0.0f)
+                          : next_speed(left, &piece);
+        float dt = piece * TICK_S;
         float way = 0.5f * (governor.speed + v1) * dt;
         float advance = way * (PROGRESS_ONE / governor.block->move.length);
-        if (way < left && advance < (float)~governor.progress) {
-            governor.progress += (uint64_t)advance;
-            governor.speed = v1;
-            governor.pending_ticks += ticks;
-            int64_t target[AXIS_COUNT];
-            path_at(governor.progress, target);
-            bool stopped = (governor.stopping || governor.holding) && v1 <= 0.0f;
-            write_way(target, stopped);
-            if (stopped && governor.stopping) {
+        if (way >= left || advance >= (float)~governor.progress) {
+            bool jerk_limited = governor.block->move.jerk > 0.0f;
+            ticks -= pass_end(left, v1, dt);
+            if (governor.block == NULL) {
+                return; // at rest
+            }
+            chosen = jerk_limited && governor.block->move.jerk > 0.0f;
+            continue;
+        }
+        governor.progress += (uint64_t)advance;
+        governor.acceleration = (v1 - governor.speed) / dt;
+        go_on(piece, v1);
+        int64_t target[AXIS_COUNT];
+        path_at(governor.progress, target);
+        bool stopped = (governor.stopping || governor.holding) && v1 <= 0.0f;
+        write_way(target, stopped);
+        if (stopped) {
+            governor.acceleration = 0.0f;
+            if (governor.stopping) {
                 drop_blocks();
             }
             return;
         }
-        ticks -= pass_end(left, v1, dt, exit_speed2);
-        if (governor.block == NULL) {
-            return; // at rest
-        }
+        ticks -= piece;
     }
 }
 

@@ -92,7 +92,7 @@ static float float_from_bits(uint32_t bits) {
     return value;
 }
 
-static span_t span_of(const block_t *block) {
+span_t planner_span_of(const block_t *block) {
     if (!block_is_move(block)) {
         return span_unlimited;
     }
@@ -164,7 +164,7 @@ static void bind(uint32_t slot) {
         blocks.binding.count++;
         blocks.end_span = span_unlimited;
     }
-    blocks.end_span = span_least(blocks.end_span, span_of(block));
+    blocks.end_span = span_least(blocks.end_span, planner_span_of(block));
 }
 
 static float top_speed(const block_t *move, const planner_override_t *override) {
@@ -282,7 +282,7 @@ void planner_set_override(const planner_override_t *override) {
         if (slot != blocks.ring.take_slot) {
             bind(slot);
         } else {
-            blocks.end_span = span_of(&blocks.slots[slot]);
+            blocks.end_span = planner_span_of(&blocks.slots[slot]);
         }
         slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
     }

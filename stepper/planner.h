@@ -138,7 +138,8 @@ typedef struct {
 // is 0. False: there are no more.
 bool planner_bound(uint32_t n, planner_bound_t *bound);
 
-// The least of the limits a span code stands for.
+// The limits of one block; and the least of what a span stands for.
+span_t planner_span_of(const block_t *block);
 float span_acceleration(span_t span);
 float span_jerk(span_t span);
 span_t span_least(span_t a, span_t b);
