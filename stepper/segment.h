@@ -1,5 +1,6 @@
 // The segment ring: what the governor hands to the tick. Inside stepper/ only.
-// A segment is some ticks of constant speed for each axis. The governor writes, the tick reads.
+// A segment is some ticks in which the speed of each axis changes evenly. The governor writes, the tick
+// reads.
 #ifndef STEPPER_SEGMENT_H
 #define STEPPER_SEGMENT_H
 
@@ -10,14 +11,18 @@
 // Exact positions count in 2^-32 of a step.
 #define STEP_ONE ((int64_t)1 << 32)
 
-// Phase and rate are fractions of a step in 2^-32. Each tick adds the rate to the phase; a carry is a
-// step. The tick takes the axes two at a time, hence the order in memory: phases of X and Y, rates of
-// X and Y, then Z and A.
+// Fractions of a step in 2^-32. Each tick adds the rate to the phase, where a carry is a step, and then
+// the ramp to the rate: at the ticks the axis is exactly on a parabola.
 typedef struct {
-    struct {
-        uint32_t phase[2];
-        uint32_t rate[2]; // at most 2^31: one step in two ticks
-    } pair[2];
+    uint32_t phase;
+    uint32_t rate; // in every tick at most RATE_MAX
+    uint32_t ramp; // two's complement
+} segment_axis_t;
+
+#define RATE_MAX ((uint32_t)1 << 31) // a step in every second tick
+
+typedef struct {
+    segment_axis_t axes[AXIS_COUNT];
     uint32_t ticks;    // >= 1
     uint32_t pins_set; // driven at the segment's first tick: direction, spindle, enable
     uint32_t pins_clear;
@@ -34,13 +39,5 @@ typedef struct {
 } segment_ring_t;
 
 extern segment_ring_t segments;
-
-static inline uint32_t *segment_phase(segment_t *segment, axis_id_t axis) {
-    return &segment->pair[axis >> 1].phase[axis & 1];
-}
-
-static inline uint32_t *segment_rate(segment_t *segment, axis_id_t axis) {
-    return &segment->pair[axis >> 1].rate[axis & 1];
-}
 
 #endif

@@ -1,27 +1,50 @@
-// Positions and times to phases and rates.
+// From positions and times to phases, rates and ramps.
 //
-// The exact position of each axis is kept in 2^-32 of a step and moves by rate * ticks with each
-// segment, nothing else; whatever a division leaves over stays in the distance to the next target. The
+// The exact position of each axis is kept in 2^-32 of a step and moves by the sum of the rates of each
+// segment, nothing else; whatever rounding leaves over stays in the distance to the next target. The
 // motor stands at the nearest whole step: floor(position + 1/2). Hence the phase, which is
 // the fraction of position + 1/2, counts up to the next step; for a direction down it is mirrored.
+//
+// Within a segment of n ticks the rate rises evenly around its mean:
+//
+//   rate |          .-+     first = mean - half * (n - 1)
+//        |      .-+-'       ramp  = 2 * half
+//   mean |- - +-' - - -     last  = mean + half * (n - 1)
+//        |.-+-'             way   = mean * n, exactly
+//        +-+-+-+-+-+-+-> ticks
+//
+// Targets are where the path is at times between two ticks. The segment ends at the last tick before, with
+// the rate of the path, so what is left of the way is also left of the time.
 #include "stepper/segment_writer.h"
 
 #include <string.h>
 
 #define HALF_STEP (STEP_ONE / 2)
-#define RATE_MAX ((uint32_t)1 << 31) // a step in every second tick
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis round.
 #define NO_DISTANCE ((int64_t)1 << 20)
-#define ROOM 4 // segments: one call writes up to three
+#define TICK_ONE ((int32_t)1 << 16) // times in 2^-16 ticks
+#define ROOM 4                      // segments: one call writes up to that many
 
 static struct {
-    int64_t position[AXIS_COUNT]; // 2^-32 steps, end of the last segment
-    uint32_t negative;            // bit n: axis n counts down
+    int64_t place[AXIS_COUNT];      // position + 1/2 step in 2^-32, end of the last segment
+    uint32_t last_rate[AXIS_COUNT]; // in its last tick
+    uint32_t negative;              // bit n: axis n counts down
     uint32_t dir[AXIS_COUNT];
     uint32_t dir_inverted;
-    float late_ticks; // by how much the segments lag behind the times they should have had
+    int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
     uint32_t end_ticks;
+    int32_t due; // of which `share` is the reciprocal
+    uint32_t share;
 } writer;
+
+// How one segment goes its way.
+typedef struct {
+    uint32_t ticks; // of the segment
+    uint32_t share; // of the way in a tick, 2^-32
+    uint32_t slope; // change of the rate in half a tick as a part of the mean rate, 2^-32
+    uint32_t late;  // 2^-32 ticks that the way goes on behind the segment
+    bool slowing;
+} pace_t;
 
 // Segments that were dropped may have been about to turn an axis round, so the pins have the last word.
 static void follow_dir_pins(void) {
@@ -36,9 +59,10 @@ static void follow_dir_pins(void) {
 void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
     follow_dir_pins();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.position[axis] = steps[axis] * STEP_ONE;
+        writer.place[axis] = steps[axis] * STEP_ONE + HALF_STEP;
+        writer.last_rate[axis] = 0;
     }
-    writer.late_ticks = 0.0f;
+    writer.late = 0;
 }
 
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted) {
@@ -52,21 +76,19 @@ void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t invert
     }
 }
 
-static int32_t motor_steps(axis_id_t axis) {
-    return (int32_t)((writer.position[axis] + HALF_STEP) >> 32);
-}
-
 void segment_writer_end_steps(int32_t steps[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        steps[axis] = motor_steps(axis);
+        steps[axis] = (int32_t)(writer.place[axis] >> 32);
     }
 }
 
 void segment_writer_settle(void) {
+    int32_t steps[AXIS_COUNT];
+    segment_writer_end_steps(steps);
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.position[axis] = motor_steps(axis) * STEP_ONE;
+        writer.place[axis] = steps[axis] * STEP_ONE + HALF_STEP;
     }
-    writer.late_ticks = 0.0f;
+    writer.late = 0;
 }
 
 uint32_t segment_writer_ahead_ticks(void) {
@@ -81,60 +103,198 @@ bool segment_writer_has_room(void) {
     return ring_free(&segments.ring) >= ROOM;
 }
 
-// The slot to fill, with everything at rest.
-static segment_t *open_segment(uint32_t ticks) {
-    segment_t *segment = &segments.slots[segments.ring.put_slot];
-    *segment = (segment_t){.ticks = ticks, .flags = writer.negative};
-    segment_writer_end_steps(segment->start_steps);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        uint32_t phase = (uint32_t)(writer.position[axis] + HALF_STEP);
-        bool negative = (writer.negative >> axis) & 1;
-        *segment_phase(segment, axis) = negative ? ~phase : phase;
+// ---- One segment ---------------------------------------------------------------------------------
+
+// The upper half of the product, at most 2 too low.
+static inline uint32_t multiply_high(uint32_t a, uint32_t b) {
+    uint32_t a_low = a & 0xFFFFu;
+    uint32_t a_high = a >> 16;
+    uint32_t b_low = b & 0xFFFFu;
+    uint32_t b_high = b >> 16;
+    return a_high * b_high + ((a_high * b_low) >> 16) + ((a_low * b_high) >> 16);
+}
+
+// The whole product of a rate and less than 2^16 ticks.
+static inline uint64_t way_of(uint32_t rate, uint32_t ticks) {
+    uint32_t high = (rate >> 16) * ticks + (((rate & 0xFFFFu) * ticks) >> 16);
+    return (uint64_t)(high >> 16) << 32 | rate * ticks;
+}
+
+static inline segment_t *open_slot(void) {
+    return &segments.slots[segments.ring.put_slot];
+}
+
+static inline uint32_t mean_rate(uint64_t way, const pace_t *pace) {
+    uint32_t steps = (uint32_t)(way >> 32);
+    if (steps > pace->ticks / 2) {
+        return RATE_MAX;
     }
-    writer.end_ticks += ticks;
-    segment->end_ticks = writer.end_ticks;
-    return segment;
+    uint32_t rate = steps * pace->share + multiply_high((uint32_t)way, pace->share);
+    return rate < RATE_MAX ? rate : RATE_MAX;
 }
 
-static int64_t distance_to(axis_id_t axis, const int64_t target[AXIS_COUNT]) {
-    int64_t distance = target[axis] - writer.position[axis];
-    return distance < NO_DISTANCE && distance > -NO_DISTANCE ? 0 : distance;
+// Makes the rate rise or fall evenly. Returns its mean over the segment, given that over the way.
+static inline uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
+    uint32_t half = multiply_high(mean, pace->slope);
+    uint32_t late = multiply_high(half, pace->late);
+    mean = pace->slowing ? mean + late : mean - late;
+    uint32_t steps = pace->ticks - 1;
+    if (mean + half * steps > RATE_MAX) {
+        mean = mean < RATE_MAX ? mean : RATE_MAX;
+        half = (RATE_MAX - mean) / steps;
+    }
+    axis->rate = pace->slowing ? mean + half * steps : mean - half * steps;
+    axis->ramp = pace->slowing ? 0 - 2 * half : 2 * half;
+    return mean;
 }
 
-// `ticks` of a way to `target` that takes `whole_ticks`; axes of the mask `waiting` stand.
-static segment_t *write_way(const int64_t target[AXIS_COUNT], uint32_t ticks, uint32_t whole_ticks,
-                            uint32_t waiting) {
-    segment_t *segment = open_segment(ticks);
+// All ones if the axis counts down, else 0: value ^ flip mirrors a phase, (value ^ flip) - flip a number.
+static inline uint32_t flip_of(axis_id_t axis) {
+    return 0u - ((writer.negative >> axis) & 1);
+}
+
+static inline int64_t flipped(int64_t value, uint32_t flip) {
+    int64_t mask = (int32_t)flip;
+    return (value ^ mask) - mask;
+}
+
+// Fills the next slot, unpublished, and moves on. Axes that would have to turn round for it stand;
+// returns them.
+static uint32_t write_segment(const int64_t target[AXIS_COUNT], const pace_t *pace) {
+    segment_t *segment = open_slot();
+    segment->ticks = pace->ticks;
+    segment->pins_set = 0;
+    segment->pins_clear = 0;
+    segment->flags = writer.negative;
+    uint32_t turning = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t distance = distance_to(axis, target);
-        if (distance == 0 || ((waiting >> axis) & 1)) {
+        segment_axis_t *out = &segment->axes[axis];
+        int64_t place = writer.place[axis];
+        uint32_t flip = flip_of(axis);
+        segment->start_steps[axis] = (int32_t)(place >> 32);
+        out->phase = (uint32_t)place ^ flip;
+        out->rate = 0;
+        out->ramp = 0;
+        int64_t way = flipped(target[axis] - place + HALF_STEP, flip);
+        if (way <= 0) {
+            if (way <= -NO_DISTANCE) {
+                turning |= 1u << axis;
+            } else {
+                writer.last_rate[axis] = 0;
+            }
             continue;
         }
-        uint64_t rate = (uint64_t)(distance < 0 ? -distance : distance) / whole_ticks;
-        rate = rate < RATE_MAX ? rate : RATE_MAX;
-        *segment_rate(segment, axis) = (uint32_t)rate;
-        int64_t moved = (int64_t)(rate * ticks);
-        writer.position[axis] += distance < 0 ? -moved : moved;
-    }
-    return segment;
-}
-
-// Axes whose next motion is against their direction pin.
-static uint32_t reversing_axes(const int64_t target[AXIS_COUNT]) {
-    uint32_t reversing = 0;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t distance = distance_to(axis, target);
-        if (distance != 0) {
-            uint32_t negative = distance < 0 ? 1u << axis : 0;
-            reversing |= negative ^ (writer.negative & 1u << axis);
+        uint32_t mean = mean_rate((uint64_t)way, pace);
+        out->rate = mean;
+        if (pace->slope != 0) {
+            mean = set_ramp(out, mean, pace);
         }
+        writer.last_rate[axis] = 2 * mean - out->rate;
+        int64_t moved = (int64_t)way_of(mean, pace->ticks);
+        writer.place[axis] = place + flipped(moved, flip);
     }
-    return reversing;
+    return turning;
 }
 
-static void switch_directions(segment_t *segment, uint32_t reversing) {
+static void publish(void) {
+    segment_t *segment = open_slot();
+    writer.end_ticks += segment->ticks;
+    segment->end_ticks = writer.end_ticks;
+    ring_put(&segments.ring);
+}
+
+// Shortens the segment in the open slot to `ticks`, 0 or 1, with the axes of `standing` at rest.
+static void shorten(uint32_t ticks, uint32_t standing) {
+    segment_t *segment = open_slot();
+    segment->ticks = ticks;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if ((reversing >> axis) & 1) {
+        segment_axis_t *out = &segment->axes[axis];
+        if ((standing >> axis) & 1) {
+            out->rate = 0;
+            out->ramp = 0;
+        }
+        uint32_t flip = flip_of(axis);
+        int64_t start = segment->start_steps[axis] * STEP_ONE + (out->phase ^ flip);
+        writer.place[axis] = start + flipped(ticks * (int64_t)out->rate, flip);
+        writer.last_rate[axis] = ticks == 0 ? writer.last_rate[axis] : out->rate;
+    }
+}
+
+// ---- A way ---------------------------------------------------------------------------------------
+
+// The part of 2^32 that one of `due` ticks is. Almost always the same as the last time.
+static uint32_t share_of(int32_t due) {
+    if (due != writer.due) {
+        writer.due = due;
+        writer.share = (uint32_t)(((uint64_t)1 << 48) / (uint32_t)due);
+    }
+    return writer.share;
+}
+
+static pace_t pace_for(int32_t due, int32_t change) {
+    if (due < 2 * TICK_ONE) {
+        return (pace_t){.ticks = 1, .share = UINT32_MAX};
+    }
+    pace_t pace = {
+        .ticks = (uint32_t)due >> 16, .share = share_of(due), .late = (uint32_t)due << 16};
+    if (change != 0) {
+        uint32_t size = (uint32_t)(change < 0 ? -change : change);
+        pace.slope = (uint32_t)(((uint64_t)size * pace.share) >> 30);
+        pace.slowing = change < 0;
+    }
+    return pace;
+}
+// What is still to go.
+typedef struct {
+    const int64_t *target;
+    int32_t due;    // 2^-16 ticks
+    int32_t change; // of the path's speed on the way
+    pace_t pace;
+} way_t;
+
+static uint32_t go(way_t *way) {
+    way->pace = pace_for(way->due, way->change);
+    return write_segment(way->target, &way->pace);
+}
+
+// Goes only one tick of what is in the open slot. `standing`: axes that do not take part.
+static void go_one_tick(way_t *way, uint32_t standing) {
+    shorten(1, standing);
+    publish();
+    if (way->due >= 2 * TICK_ONE) {
+        // With the mean speed as 1, a tick of the way from 1 - change to 1 + change is done.
+        int32_t done = TICK_ONE + way->change / (SEGMENT_CHANGE_ONE / TICK_ONE);
+        way->due -= TICK_ONE;
+        uint32_t size = (uint32_t)(way->change < 0 ? -way->change : way->change);
+        size = (uint32_t)((uint64_t)size * (uint32_t)way->due / (uint32_t)(way->due + done));
+        way->change = way->change < 0 ? -(int32_t)size : (int32_t)size;
+    }
+}
+
+// Those of the axes that made a step in the very last tick.
+static uint32_t just_stepped(uint32_t axes) {
+    uint32_t stepped = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        uint32_t phase = (uint32_t)writer.place[axis] ^ flip_of(axis);
+        stepped |= phase < writer.last_rate[axis] ? axes & 1u << axis : 0;
+    }
+    return stepped;
+}
+
+// Those of the axes that make a step in the first tick of the open slot.
+static uint32_t about_to_step(uint32_t axes) {
+    uint32_t stepping = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        const segment_axis_t *out = &open_slot()->axes[axis];
+        stepping |= out->phase + out->rate < out->rate ? axes & 1u << axis : 0;
+    }
+    return stepping;
+}
+
+static void switch_directions(uint32_t turning) {
+    segment_t *segment = open_slot();
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if ((turning >> axis) & 1) {
             bool high = (((writer.negative ^ writer.dir_inverted) >> axis) & 1) == 0;
             segment->pins_set |= high ? writer.dir[axis] : 0;
             segment->pins_clear |= high ? 0 : writer.dir[axis];
@@ -142,54 +302,68 @@ static void switch_directions(segment_t *segment, uint32_t reversing) {
     }
 }
 
-// Fewest ticks in which every axis can make its way to `target`.
-static uint32_t ticks_needed(const int64_t target[AXIS_COUNT]) {
+// Lets axes turn round that stand in the open slot. The direction pin changes at least a tick behind the
+// last pulse's end and a tick ahead of the next pulse: an axis that has just made a step, or is about to,
+// stands for a tick. Near standstill, where axes turn as a rule, that is not the case.
+static void turn(way_t *way, uint32_t turning) {
+    if (just_stepped(turning) != 0) {
+        go_one_tick(way, turning);
+    } else {
+        shorten(0, turning);
+    }
+    writer.negative ^= turning;
+    go(way);
+    switch_directions(turning);
+    uint32_t stepping = about_to_step(turning);
+    if (stepping != 0) {
+        go_one_tick(way, stepping);
+        go(way);
+    }
+}
+
+// The motion is to end with what is in the open slot. Where the end of the way lies between two ticks, or
+// the limit of the rate has left something over, the rest follows as fast as possible.
+static void arrive(const int64_t target[AXIS_COUNT]) {
     int64_t farthest = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t distance = distance_to(axis, target);
-        distance = distance < 0 ? -distance : distance;
-        farthest = distance > farthest ? distance : farthest;
+        int64_t left = flipped(target[axis] - writer.place[axis] + HALF_STEP, flip_of(axis));
+        farthest = left > farthest ? left : farthest;
     }
-    return (uint32_t)((farthest + RATE_MAX - 1) / RATE_MAX);
+    if (farthest >= NO_DISTANCE) {
+        int32_t ticks = (int32_t)(((uint64_t)farthest + RATE_MAX - 1) / RATE_MAX);
+        pace_t pace = pace_for(ticks * TICK_ONE, 0);
+        publish();
+        write_segment(target, &pace);
+    }
+    open_slot()->flags |= SEGMENT_MAY_END;
+    writer.late = 0;
 }
 
 void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
                          bool at_rest) {
-    (void)change; // within a segment the speed is constant
-    float due = ticks + writer.late_ticks;
-    uint32_t whole = due >= 1.5f ? (uint32_t)(due + 0.5f) : 1;
-    writer.late_ticks = due - (float)whole;
-
-    // An axis that turns round stands for two ticks, and its direction pin changes between them: as
-    // far from the end of the last pulse as from the next.
-    uint32_t reversing = reversing_axes(target);
-    if (reversing != 0) {
-        write_way(target, 1, whole, reversing);
-        ring_put(&segments.ring);
-        whole -= whole > 1;
-        writer.negative ^= reversing;
-        segment_t *turn = write_way(target, 1, whole, reversing);
-        switch_directions(turn, reversing);
-        ring_put(&segments.ring);
-        whole -= whole > 1;
+    int32_t due = (int32_t)(uint32_t)(ticks * (float)TICK_ONE) + writer.late;
+    way_t way = {.target = target, .due = due, .change = change};
+    uint32_t turning = go(&way);
+    if (turning != 0) {
+        turn(&way, turning);
     }
-    // The rate limit may have left something of the way; the next segment makes up for it, but the
-    // last one has to arrive.
-    if (at_rest && whole < ticks_needed(target)) {
-        whole = ticks_needed(target);
-    }
-    segment_t *segment = write_way(target, whole, whole, 0);
+    int32_t late = way.due - (int32_t)way.pace.ticks * TICK_ONE;
+    writer.late = late > -TICK_ONE ? late : -TICK_ONE;
     if (at_rest) {
-        segment->flags |= SEGMENT_MAY_END;
-        writer.late_ticks = 0.0f;
+        arrive(target);
     }
-    ring_put(&segments.ring);
+    publish();
 }
 
 void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear) {
-    segment_t *segment = open_segment(ticks);
+    int64_t here[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        here[axis] = writer.place[axis] - HALF_STEP;
+    }
+    write_segment(here, &(pace_t){.ticks = ticks});
+    segment_t *segment = open_slot();
     segment->pins_set = pins_set;
     segment->pins_clear = pins_clear;
     segment->flags |= SEGMENT_MAY_END;
-    ring_put(&segments.ring);
+    publish();
 }

@@ -2,8 +2,9 @@
 //
 // Each axis is an accumulator of its own: phase += rate, and a carry out of 32 bits is a step. So a slow
 // axis is as evenly timed as a fast one, and with rate <= 2^31 there is always a tick without a step
-// between two steps, in which the pin goes low. The governor knows phase and rate exactly and
-// therefore the number of steps in a segment; nothing needs to be counted here. Where the motors are in
+// between two steps, in which the pin goes low. The rate changes in each tick as well (rate += ramp), so
+// that speeds are ramps and not stairs. The governor knows phase, rate and ramp exactly and therefore
+// the number of steps in a segment; nothing needs to be counted here. Where the motors are in
 // the middle of a segment follows from the ticks that are done (step_isr_position).
 #include "stepper/step_isr.h"
 
@@ -12,6 +13,11 @@
 segment_ring_t segments;
 
 #define STEP_COMBINATIONS (1u << AXIS_COUNT)
+
+// The compiler has to have `x` in a register here and memory up to date: it neither rewrites the
+// arithmetic around it nor mixes what comes before with what comes behind, which on a Cortex-M0+ takes
+// more registers than there are. Costs nothing by itself.
+#define HOLD_VALUE(x) __asm volatile("" : "+r"(x) : : "memory")
 
 // Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to see a
 // pair that belongs together.
@@ -57,6 +63,18 @@ static uint32_t HAL_RAM_FUNC(next_segment)(void) {
     return segment->ticks;
 }
 
+// One tick of an axis. Returns twice `steps`, minus one if the axis makes a step.
+static inline uint32_t advance_axis(segment_axis_t *axis, uint32_t steps) {
+    uint32_t rate = axis->rate;
+    uint32_t phase = axis->phase + rate;
+    uint32_t next_rate = rate + axis->ramp;
+    axis->phase = phase;
+    axis->rate = next_rate;
+    uint32_t carry = 0u - (uint32_t)(phase < rate); // two instructions, if left like this
+    HOLD_VALUE(carry);
+    return steps + steps + carry;
+}
+
 void HAL_RAM_FUNC(hal_on_tick)(void) {
     hal_pins_clear(isr.raised);
     if (((hal_pins_read() ^ isr.trip_idle) & isr.trip_mask) != 0) {
@@ -73,20 +91,11 @@ void HAL_RAM_FUNC(hal_on_tick)(void) {
     isr.ticks_left = left - 1;
 
     segment_t *segment = isr.current;
-    unsigned steps = 0;
-    for (unsigned i = 0; i < COUNT_OF_ARRAY(segment->pair); i++) {
-        uint32_t phase0 = segment->pair[i].phase[0];
-        uint32_t phase1 = segment->pair[i].phase[1];
-        uint32_t rate0 = segment->pair[i].rate[0];
-        uint32_t rate1 = segment->pair[i].rate[1];
-        phase0 += rate0;
-        steps += steps + (phase0 < rate0);
-        phase1 += rate1;
-        steps += steps + (phase1 < rate1);
-        segment->pair[i].phase[0] = phase0;
-        segment->pair[i].phase[1] = phase1;
+    uint32_t steps = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        steps = advance_axis(&segment->axes[axis], steps);
     }
-    uint32_t pins = isr.step_pins[steps];
+    uint32_t pins = isr.step_pins[0u - steps];
     hal_pins_set(pins);
     isr.raised = pins;
 }
@@ -112,13 +121,16 @@ void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]) {
     }
 }
 
-// Motor position at `left` ticks before the end of `segment`: the phase at its start follows from the
-// phase now, and the carries since then from 64-bit arithmetic.
-static void position_in(segment_t *segment, uint32_t left, int32_t steps[AXIS_COUNT]) {
-    uint32_t done = segment->ticks - left;
+// Motor position at `left` ticks before the end of `segment`: phase and rate at its start follow from
+// those now, and the carries since then from 64-bit arithmetic.
+static void position_in(const segment_t *segment, uint32_t left, int32_t steps[AXIS_COUNT]) {
+    uint64_t done = segment->ticks - left;
+    uint64_t ramps = done * (done - 1) / 2; // 0 + 1 + ... + (done - 1): how often each ramp counts
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        uint64_t travel = (uint64_t)*segment_rate(segment, axis) * done;
-        uint32_t start_phase = *segment_phase(segment, axis) - (uint32_t)travel;
+        const segment_axis_t *now = &segment->axes[axis];
+        uint32_t start_rate = now->rate - now->ramp * (uint32_t)done;
+        uint64_t travel = start_rate * done + (uint64_t)(int32_t)now->ramp * ramps;
+        uint32_t start_phase = now->phase - (uint32_t)travel;
         int32_t carries = (int32_t)((start_phase + travel) >> 32);
         bool negative = (segment->flags >> axis) & 1;
         steps[axis] = segment->start_steps[axis] + (negative ? -carries : carries);
@@ -127,7 +139,7 @@ static void position_in(segment_t *segment, uint32_t left, int32_t steps[AXIS_CO
 
 bool step_isr_position(int32_t steps[AXIS_COUNT]) {
     for (;;) {
-        segment_t *segment = isr.current;
+        const segment_t *segment = isr.current;
         uint32_t left = isr.ticks_left;
         uint32_t taken = segments.ring.read;
         RING_BARRIER();
