@@ -5,6 +5,7 @@ The oracles are tried on these: a clean recording must pass, one with a planted 
 
 import numpy as np
 
+from stepmite.follow import crossings, fastest_axis
 from stepmite.gcode import read_blocks, target_steps
 from stepmite.plan import Machine, Planned, plan
 from stepmite.trace import TICK_NS, AxisPins, Edges, axis_trace
@@ -73,3 +74,46 @@ def without_step(edges, gpio, number):
     keep = np.ones(len(edges), bool)
     keep[[rises[number], falls[number]]] = False
     return Edges(edges.time_ns[keep], edges.gpio[keep], edges.level[keep])
+
+
+def jerk_law(phases):
+    """Times, ways and last speed of a motion by (jerk, seconds) phases from rest.
+
+    ("jump", a) adds to the acceleration at once.
+    """
+    speed = acceleration = way = 0.0
+    times, ways = [np.zeros(1)], [np.zeros(1)]
+    for jerk, amount in phases:
+        if jerk == "jump":
+            acceleration += amount
+            continue
+        t = np.linspace(0, amount, max(2, round(amount * 1e5)))[1:]
+        times.append(times[-1][-1] + t)
+        ways.append(way + speed * t + acceleration / 2 * t**2 + jerk / 6 * t**3)
+        way = ways[-1][-1]
+        speed += acceleration * amount + jerk / 2 * amount**2
+        acceleration += jerk * amount
+    return np.concatenate(times), np.concatenate(ways), speed
+
+
+def edges_along(path, pins, law):
+    """Edges of a machine that follows a path exactly, steps rounded up to ticks.
+
+    `law` are times in s and ways along the path.
+    """
+    scale = np.array([pin.steps_per_unit for pin in pins])
+    fastest = fastest_axis(path, scale)
+    table = []
+    for axis, pin in enumerate(pins):
+        wanted = crossings(path, axis, scale[axis], fastest)
+        moments = 0.001 + np.interp(wanted.way, law[1], law[0])
+        level = 0
+        for moment, direction in zip(moments, wanted.direction, strict=True):
+            want = int((direction > 0) != pin.inverted)
+            if want != level:
+                table.append((tick(moment), 0, pin.dir_gpio, want))
+                level = want
+            table.append((tick(moment) + TICK_NS, 2, pin.step_gpio, 1))
+            table.append((tick(moment) + 2 * TICK_NS, 1, pin.step_gpio, 0))
+    table.sort(key=lambda entry: entry[:2])
+    return Edges.from_rows([(time, gpio, level) for time, _, gpio, level in table])

@@ -25,6 +25,10 @@ class Machine:
     max_acceleration: Position = (500.0, 500.0, 500.0, 500.0)
     """mm/s^2, deg/s^2."""
     junction_deviation_mm: float = 0.02
+    path_jerk: float = math.inf
+    """mm/s^3, in SCURVE mode."""
+    max_jerk: Position = (math.inf,) * 4
+    """mm/s^3, deg/s^3, of each axis."""
 
 
 @dataclass
