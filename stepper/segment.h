@@ -6,7 +6,7 @@
 
 #include "stepper/stepper.h"
 
-#define SEGMENTS 64u
+#define SEGMENTS 32u
 
 // Exact positions count in 2^-32 of a step.
 #define STEP_ONE ((int64_t)1 << 32)
@@ -15,8 +15,9 @@
 // the ramp to the rate: at the ticks the axis is exactly on a parabola.
 typedef struct {
     uint32_t phase;
-    uint32_t rate; // in every tick at most RATE_MAX
-    uint32_t ramp; // two's complement
+    uint32_t rate;       // in every tick at most RATE_MAX
+    uint32_t ramp;       // two's complement
+    int32_t start_steps; // motor position before the first tick
 } segment_axis_t;
 
 #define RATE_MAX ((uint32_t)1 << 31) // a step in every second tick
@@ -26,9 +27,8 @@ typedef struct {
     uint32_t ticks;    // >= 1
     uint32_t pins_set; // driven at the segment's first tick: direction, spindle, enable
     uint32_t pins_clear;
-    uint32_t end_ticks;              // ticks of all segments up to the end of this one, modulo 2^32
-    uint32_t flags;                  // bit n: axis n counts down; SEGMENT_MAY_END
-    int32_t start_steps[AXIS_COUNT]; // motor position before the first tick
+    uint32_t end_ticks; // ticks of all segments up to the end of this one, modulo 2^32
+    uint32_t flags;     // bit n: axis n counts down; SEGMENT_MAY_END
 } segment_t;
 
 #define SEGMENT_MAY_END (1u << 31) // the machine stands at its end; the ring may be empty behind it

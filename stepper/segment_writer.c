@@ -25,51 +25,60 @@
 #define TICK_ONE ((int32_t)1 << 16) // times in 2^-16 ticks
 #define ROOM 4                      // segments: one call writes up to that many
 
-static struct {
-    int64_t place[AXIS_COUNT];      // position + 1/2 step in 2^-32, end of the last segment
-    uint32_t last_rate[AXIS_COUNT]; // in its last tick
-    uint32_t negative;              // bit n: axis n counts down
-    uint32_t dir[AXIS_COUNT];
-    uint32_t dir_inverted;
-    int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
-    uint32_t end_ticks;
-    int32_t due; // of which `share` is the reciprocal
-    uint32_t share;
-} writer;
-
-// How one segment goes its way.
+// How a segment goes its way.
 typedef struct {
-    uint32_t ticks; // of the segment
-    uint32_t share; // of the way in a tick, 2^-32
+    uint32_t ticks;                 // of the segment
+    uint32_t share_high, share_low; // of the way in a tick, 2^-16 and 2^-32
     uint32_t slope; // change of the rate in half a tick as a part of the mean rate, 2^-32
     uint32_t late;  // 2^-32 ticks that the way goes on behind the segment
     bool slowing;
+    int32_t due, change; // what it was made for
 } pace_t;
+
+typedef struct {
+    int64_t place;      // 2^-32 steps, end of the last segment
+    uint32_t last_rate; // in its last tick
+    uint32_t dir;       // pin mask
+} writer_axis_t;
+
+static struct {
+    writer_axis_t axes[AXIS_COUNT];
+    uint32_t negative; // bit n: axis n counts down
+    uint32_t dir_inverted;
+    int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
+    uint32_t end_ticks;
+    pace_t pace; // the last one; the next is often the same
+} writer;
 
 // Segments that were dropped may have been about to turn an axis round, so the pins have the last word.
 static void follow_dir_pins(void) {
     uint32_t pins = hal_pins_read();
     writer.negative = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        uint32_t low = (pins & writer.dir[axis]) != 0 ? 0 : 1u << axis;
-        writer.negative |= writer.dir[axis] != 0 ? low ^ (writer.dir_inverted & 1u << axis) : 0;
+        uint32_t dir = writer.axes[axis].dir;
+        uint32_t low = (pins & dir) != 0 ? 0 : 1u << axis;
+        writer.negative |= dir != 0 ? low ^ (writer.dir_inverted & 1u << axis) : 0;
     }
 }
 
-void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
-    follow_dir_pins();
+static void stand_at(const int32_t steps[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.place[axis] = steps[axis] * STEP_ONE + HALF_STEP;
-        writer.last_rate[axis] = 0;
+        writer.axes[axis].place = steps[axis] * STEP_ONE;
+        writer.axes[axis].last_rate = 0;
     }
     writer.late = 0;
 }
 
+void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
+    follow_dir_pins();
+    stand_at(steps);
+}
+
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted) {
-    memcpy(writer.dir, dir, sizeof writer.dir);
     writer.dir_inverted = inverted;
     writer.negative = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        writer.axes[axis].dir = dir[axis];
         bool low = (inverted >> axis) & 1;
         hal_pins_set(low ? 0 : dir[axis]);
         hal_pins_clear(low ? dir[axis] : 0);
@@ -78,17 +87,14 @@ void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t invert
 
 void segment_writer_end_steps(int32_t steps[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        steps[axis] = (int32_t)(writer.place[axis] >> 32);
+        steps[axis] = (int32_t)((writer.axes[axis].place + HALF_STEP) >> 32);
     }
 }
 
 void segment_writer_settle(void) {
     int32_t steps[AXIS_COUNT];
     segment_writer_end_steps(steps);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        writer.place[axis] = steps[axis] * STEP_ONE + HALF_STEP;
-    }
-    writer.late = 0;
+    stand_at(steps);
 }
 
 uint32_t segment_writer_ahead_ticks(void) {
@@ -105,7 +111,7 @@ bool segment_writer_has_room(void) {
 
 // ---- One segment ---------------------------------------------------------------------------------
 
-// The upper half of the product, at most 2 too low.
+// The upper half of a product; exact would be up to 2 more.
 static inline uint32_t multiply_high(uint32_t a, uint32_t b) {
     uint32_t a_low = a & 0xFFFFu;
     uint32_t a_high = a >> 16;
@@ -115,47 +121,55 @@ static inline uint32_t multiply_high(uint32_t a, uint32_t b) {
 }
 
 // The whole product of a rate and less than 2^16 ticks.
-static inline uint64_t way_of(uint32_t rate, uint32_t ticks) {
+static inline int64_t way_of(uint32_t rate, uint32_t ticks) {
     uint32_t high = (rate >> 16) * ticks + (((rate & 0xFFFFu) * ticks) >> 16);
-    return (uint64_t)(high >> 16) << 32 | rate * ticks;
+    return (int64_t)((uint64_t)(high >> 16) << 32 | rate * ticks);
 }
 
 static inline segment_t *open_slot(void) {
     return &segments.slots[segments.ring.put_slot];
 }
 
-static inline uint32_t mean_rate(uint64_t way, const pace_t *pace) {
+static inline bool counts_down(axis_id_t axis) {
+    return (writer.negative >> axis) & 1;
+}
+
+// The fraction of `place` + 1/2 in the direction of the axis.
+static inline uint32_t phase_at(int64_t place, bool down) {
+    uint32_t phase = (uint32_t)place ^ (uint32_t)HALF_STEP;
+    return down ? ~phase : phase;
+}
+
+static inline uint32_t mean_rate(int64_t way, const pace_t *pace) {
     uint32_t steps = (uint32_t)(way >> 32);
+    uint32_t low = (uint32_t)way & 0xFFFFu;
+    uint32_t high = (uint32_t)way >> 16;
     if (steps > pace->ticks / 2) {
         return RATE_MAX;
     }
-    uint32_t rate = steps * pace->share + multiply_high((uint32_t)way, pace->share);
+    uint32_t share = pace->share_high << 16 | pace->share_low;
+    uint32_t rate = steps * share + high * pace->share_high + ((high * pace->share_low) >> 16) +
+                    ((low * pace->share_high) >> 16);
     return rate < RATE_MAX ? rate : RATE_MAX;
 }
 
 // Makes the rate rise or fall evenly. Returns its mean over the segment, given that over the way.
-static inline uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
-    uint32_t half = multiply_high(mean, pace->slope);
-    uint32_t late = multiply_high(half, pace->late);
-    mean = pace->slowing ? mean + late : mean - late;
+static uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
     uint32_t steps = pace->ticks - 1;
-    if (mean + half * steps > RATE_MAX) {
-        mean = mean < RATE_MAX ? mean : RATE_MAX;
-        half = (RATE_MAX - mean) / steps;
+    uint32_t half = multiply_high(mean, pace->slope);
+    if (pace->late != 0) {
+        uint32_t late = multiply_high(half, pace->late);
+        mean = pace->slowing ? mean + late : mean - late;
     }
-    axis->rate = pace->slowing ? mean + half * steps : mean - half * steps;
+    uint32_t rise = half * steps;
+    if (mean + rise > RATE_MAX) {
+        mean = mean < RATE_MAX ? mean : RATE_MAX;
+        half = steps > 0 ? (RATE_MAX - mean) / steps : 0;
+        rise = half * steps;
+    }
+    axis->rate = pace->slowing ? mean + rise : mean - rise;
     axis->ramp = pace->slowing ? 0 - 2 * half : 2 * half;
     return mean;
-}
-
-// All ones if the axis counts down, else 0: value ^ flip mirrors a phase, (value ^ flip) - flip a number.
-static inline uint32_t flip_of(axis_id_t axis) {
-    return 0u - ((writer.negative >> axis) & 1);
-}
-
-static inline int64_t flipped(int64_t value, uint32_t flip) {
-    int64_t mask = (int32_t)flip;
-    return (value ^ mask) - mask;
 }
 
 // Fills the next slot, unpublished, and moves on. Axes that would have to turn round for it stand;
@@ -165,33 +179,37 @@ static uint32_t write_segment(const int64_t target[AXIS_COUNT], const pace_t *pa
     segment->ticks = pace->ticks;
     segment->pins_set = 0;
     segment->pins_clear = 0;
-    segment->flags = writer.negative;
+    uint32_t negative = writer.negative;
+    segment->flags = negative;
     uint32_t turning = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        writer_axis_t *from = &writer.axes[axis];
         segment_axis_t *out = &segment->axes[axis];
-        int64_t place = writer.place[axis];
-        uint32_t flip = flip_of(axis);
-        segment->start_steps[axis] = (int32_t)(place >> 32);
-        out->phase = (uint32_t)place ^ flip;
-        out->rate = 0;
-        out->ramp = 0;
-        int64_t way = flipped(target[axis] - place + HALF_STEP, flip);
+        int64_t place = from->place;
+        bool down = (negative >> axis) & 1;
+        out->start_steps = (int32_t)((place + HALF_STEP) >> 32);
+        out->phase = phase_at(place, down);
+        int64_t way = down ? place - target[axis] : target[axis] - place;
         if (way <= 0) {
+            out->rate = 0;
+            out->ramp = 0;
             if (way <= -NO_DISTANCE) {
                 turning |= 1u << axis;
             } else {
-                writer.last_rate[axis] = 0;
+                from->last_rate = 0;
             }
             continue;
         }
-        uint32_t mean = mean_rate((uint64_t)way, pace);
+        uint32_t mean = mean_rate(way, pace);
         out->rate = mean;
+        out->ramp = 0;
+        from->last_rate = mean;
         if (pace->slope != 0) {
             mean = set_ramp(out, mean, pace);
+            from->last_rate = 2 * mean - out->rate;
         }
-        writer.last_rate[axis] = 2 * mean - out->rate;
-        int64_t moved = (int64_t)way_of(mean, pace->ticks);
-        writer.place[axis] = place + flipped(moved, flip);
+        int64_t moved = way_of(mean, pace->ticks);
+        from->place = down ? place - moved : place + moved;
     }
     return turning;
 }
@@ -213,48 +231,47 @@ static void shorten(uint32_t ticks, uint32_t standing) {
             out->rate = 0;
             out->ramp = 0;
         }
-        uint32_t flip = flip_of(axis);
-        int64_t start = segment->start_steps[axis] * STEP_ONE + (out->phase ^ flip);
-        writer.place[axis] = start + flipped(ticks * (int64_t)out->rate, flip);
-        writer.last_rate[axis] = ticks == 0 ? writer.last_rate[axis] : out->rate;
+        bool down = counts_down(axis);
+        int64_t start = out->start_steps * STEP_ONE + (down ? ~out->phase : out->phase) - HALF_STEP;
+        int64_t moved = (int64_t)out->rate * ticks;
+        writer.axes[axis].place = down ? start - moved : start + moved;
+        writer.axes[axis].last_rate = ticks == 0 ? writer.axes[axis].last_rate : out->rate;
     }
 }
 
 // ---- A way ---------------------------------------------------------------------------------------
 
-// The part of 2^32 that one of `due` ticks is. Almost always the same as the last time.
-static uint32_t share_of(int32_t due) {
-    if (due != writer.due) {
-        writer.due = due;
-        writer.share = (uint32_t)(((uint64_t)1 << 48) / (uint32_t)due);
-    }
-    return writer.share;
-}
-
-static pace_t pace_for(int32_t due, int32_t change) {
-    if (due < 2 * TICK_ONE) {
-        return (pace_t){.ticks = 1, .share = UINT32_MAX};
-    }
-    pace_t pace = {
-        .ticks = (uint32_t)due >> 16, .share = share_of(due), .late = (uint32_t)due << 16};
-    if (change != 0) {
-        uint32_t size = (uint32_t)(change < 0 ? -change : change);
-        pace.slope = (uint32_t)(((uint64_t)size * pace.share) >> 30);
-        pace.slowing = change < 0;
-    }
-    return pace;
-}
 // What is still to go.
 typedef struct {
     const int64_t *target;
     int32_t due;    // 2^-16 ticks
     int32_t change; // of the path's speed on the way
-    pace_t pace;
 } way_t;
 
-static uint32_t go(way_t *way) {
-    way->pace = pace_for(way->due, way->change);
-    return write_segment(way->target, &way->pace);
+static void set_pace(int32_t due, int32_t change) {
+    pace_t *pace = &writer.pace;
+    uint32_t share = UINT32_MAX;
+    pace->due = due;
+    pace->change = change;
+    pace->ticks = 1;
+    pace->late = 0;
+    if (due > TICK_ONE) {
+        share = (uint32_t)(((uint64_t)1 << 48) / (uint32_t)due);
+        pace->ticks = (uint32_t)due >> 16;
+        pace->late = (uint32_t)due << 16;
+    }
+    pace->share_high = share >> 16;
+    pace->share_low = share & 0xFFFFu;
+    uint32_t size = (uint32_t)(change < 0 ? -change : change);
+    pace->slope = (uint32_t)(((uint64_t)size * share) >> 30);
+    pace->slowing = change < 0;
+}
+
+static uint32_t go(const way_t *way) {
+    if (way->due != writer.pace.due || way->change != writer.pace.change) {
+        set_pace(way->due, way->change);
+    }
+    return write_segment(way->target, &writer.pace);
 }
 
 // Goes only one tick of what is in the open slot. `standing`: axes that do not take part.
@@ -275,8 +292,9 @@ static void go_one_tick(way_t *way, uint32_t standing) {
 static uint32_t just_stepped(uint32_t axes) {
     uint32_t stepped = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        uint32_t phase = (uint32_t)writer.place[axis] ^ flip_of(axis);
-        stepped |= phase < writer.last_rate[axis] ? axes & 1u << axis : 0;
+        const writer_axis_t *from = &writer.axes[axis];
+        uint32_t phase = phase_at(from->place, counts_down(axis));
+        stepped |= phase < from->last_rate ? axes & 1u << axis : 0;
     }
     return stepped;
 }
@@ -296,8 +314,9 @@ static void switch_directions(uint32_t turning) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if ((turning >> axis) & 1) {
             bool high = (((writer.negative ^ writer.dir_inverted) >> axis) & 1) == 0;
-            segment->pins_set |= high ? writer.dir[axis] : 0;
-            segment->pins_clear |= high ? 0 : writer.dir[axis];
+            uint32_t dir = writer.axes[axis].dir;
+            segment->pins_set |= high ? dir : 0;
+            segment->pins_clear |= high ? 0 : dir;
         }
     }
 }
@@ -326,14 +345,14 @@ static void turn(way_t *way, uint32_t turning) {
 static void arrive(const int64_t target[AXIS_COUNT]) {
     int64_t farthest = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        int64_t left = flipped(target[axis] - writer.place[axis] + HALF_STEP, flip_of(axis));
+        int64_t left = target[axis] - writer.axes[axis].place;
+        left = counts_down(axis) ? -left : left;
         farthest = left > farthest ? left : farthest;
     }
     if (farthest >= NO_DISTANCE) {
         int32_t ticks = (int32_t)(((uint64_t)farthest + RATE_MAX - 1) / RATE_MAX);
-        pace_t pace = pace_for(ticks * TICK_ONE, 0);
         publish();
-        write_segment(target, &pace);
+        go(&(way_t){.target = target, .due = ticks * TICK_ONE});
     }
     open_slot()->flags |= SEGMENT_MAY_END;
     writer.late = 0;
@@ -342,13 +361,16 @@ static void arrive(const int64_t target[AXIS_COUNT]) {
 void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
                          bool at_rest) {
     int32_t due = (int32_t)(uint32_t)(ticks * (float)TICK_ONE) + writer.late;
+    if (due < TICK_ONE && !at_rest) {
+        writer.late = due; // less than a tick: the next one goes this way, too
+        return;
+    }
     way_t way = {.target = target, .due = due, .change = change};
     uint32_t turning = go(&way);
     if (turning != 0) {
         turn(&way, turning);
     }
-    int32_t late = way.due - (int32_t)way.pace.ticks * TICK_ONE;
-    writer.late = late > -TICK_ONE ? late : -TICK_ONE;
+    writer.late = way.due - (int32_t)open_slot()->ticks * TICK_ONE;
     if (at_rest) {
         arrive(target);
     }
@@ -358,7 +380,7 @@ void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t 
 void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear) {
     int64_t here[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        here[axis] = writer.place[axis] - HALF_STEP;
+        here[axis] = writer.axes[axis].place;
     }
     write_segment(here, &(pace_t){.ticks = ticks});
     segment_t *segment = open_slot();

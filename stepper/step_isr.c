@@ -8,8 +8,6 @@
 // the middle of a segment follows from the ticks that are done (step_isr_position).
 #include "stepper/step_isr.h"
 
-#include <string.h>
-
 segment_ring_t segments;
 
 #define STEP_COMBINATIONS (1u << AXIS_COUNT)
@@ -133,7 +131,7 @@ static void position_in(const segment_t *segment, uint32_t left, int32_t steps[A
         uint32_t start_phase = now->phase - (uint32_t)travel;
         int32_t carries = (int32_t)((start_phase + travel) >> 32);
         bool negative = (segment->flags >> axis) & 1;
-        steps[axis] = segment->start_steps[axis] + (negative ? -carries : carries);
+        steps[axis] = now->start_steps + (negative ? -carries : carries);
     }
 }
 
@@ -148,7 +146,9 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
             position_in(segment, left, steps);
         } else if (waiting) { // the first tick is still to come
             const segment_t *first = &segments.slots[segments.ring.take_slot];
-            memcpy(steps, first->start_steps, sizeof first->start_steps);
+            for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+                steps[axis] = first->axes[axis].start_steps;
+            }
         }
         RING_BARRIER();
         if (segment == isr.current && left == isr.ticks_left && taken == segments.ring.read) {
