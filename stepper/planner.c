@@ -31,6 +31,8 @@ static struct {
     int32_t target_steps[AXIS_COUNT];
     bool corner; // the last queued block is a move, `last` is what it is like
     geometry_t last;
+    float way_rest; // what `way` of the newest block leaves out, 0..1
+    float end_way_rest;
 } planner;
 
 static const span_t span_unlimited = {.acceleration = UINT16_MAX, .jerk = UINT8_MAX};
@@ -134,8 +136,13 @@ static uint32_t binding_index(uint32_t n) {
 static void set_end(const block_t *block) {
     blocks.end_way = block->way;
     blocks.end_climb = block->climb;
+    planner.end_way_rest = planner.way_rest;
     if (block_is_move(block)) {
-        blocks.end_way += (uint32_t)(block->move.length * WAY_ONE + 0.5f);
+        // What is lost by the integer is made up for in the next move.
+        float way = block->move.length * WAY_ONE + planner.way_rest;
+        uint32_t whole = (uint32_t)way;
+        planner.end_way_rest = way - (float)whole;
+        blocks.end_way += whole;
         blocks.end_climb += v2_from(2.0f * block->move.acceleration * block->move.length);
     }
 }
@@ -213,6 +220,7 @@ static void push_block(void) {
     }
     block->way = blocks.end_way;
     block->climb = blocks.end_climb;
+    planner.way_rest = planner.end_way_rest;
     bind(slot);
     set_end(block);
     ring_put(&blocks.ring);

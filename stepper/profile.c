@@ -87,26 +87,34 @@ static float next_speed_trapezoid(const profile_t *now, float *ticks) {
 #define ALIKE_CHANGES 4u
 static const float alike[] = {0.94f, 0.8f, 0.5f};
 #define TESTS_MAX (ALIKE_CHANGES * 3u)
-#define BOUNDS_MAX 256u
+#define BOUNDS_MAX 640u
+
+#define CREEP 0.1f // units/s
+#define HAIR 1.01f
 
 // The choice for one slice while it is made.
 typedef struct {
     const profile_t *now;
-    float dt;
-    ramp_t ramp;         // limits from here to the bound being looked at
-    span_t span;         // the same
-    float least;         // acceleration that the jerk limit allows at least
-    float chosen;        // acceleration
-    bool out_of_reach;   // a bound cannot be met within the jerk limit
+    float half_s;      // half of the slice
+    ramp_t ramp;       // limits from here to the bound being looked at
+    span_t span;       // the same
+    float least;       // acceleration that the jerk limit allows at least
+    float chosen;      // acceleration
+    bool out_of_reach; // a bound cannot be met within the jerk limit
     unsigned tests;
 } choice_t;
 
-// By how much braking ends before `distance` if this slice has `acceleration`.
+// By how much braking ends before `distance` if this slice has `acceleration`. Slices of constant
+// acceleration follow a straight line of jerk if they have its value at their middle; so it is the
+// middle of this slice from which the acceleration changes further.
 static float margin(const choice_t *choice, float acceleration, float distance, float cap) {
     float v = choice->now->speed;
-    float v1 = greater(v + acceleration * choice->dt, 0.0f);
-    return distance - 0.5f * (v + v1) * choice->dt -
-           ramp_braking_distance(&choice->ramp, v1, acceleration, cap);
+    float middle = greater(v + acceleration * choice->half_s, 0.0f);
+    float braking = ramp_braking_distance(&choice->ramp, middle, acceleration, cap);
+    if (braking <= 0.0f) {
+        return distance; // the bound may well be passed in this slice
+    }
+    return distance - 0.5f * (v + middle) * choice->half_s - braking;
 }
 
 // Lowers the acceleration as far as the bound needs it. The margin is a concave function of the
@@ -123,8 +131,7 @@ static void meet(choice_t *choice, float distance, float cap) {
         choice->out_of_reach |= low < 0.0f;
         choice->chosen = choice->least;
     } else {
-        choice->chosen =
-            choice->least + (choice->chosen - choice->least) * (low / (low - high));
+        choice->chosen = choice->least + (choice->chosen - choice->least) * (low / (low - high));
     }
 }
 
@@ -138,19 +145,21 @@ static bool take_span(choice_t *choice, span_t span) {
     return true;
 }
 
-// The highest speed that follows if `acceleration` is taken back from the end of this slice on.
+// The highest speed that follows if `acceleration` is taken back from the middle of this slice on.
 static float crest(const choice_t *choice, float acceleration) {
-    float v1 = choice->now->speed + acceleration * choice->dt;
     return acceleration > 0.0f
-               ? v1 + 0.5f * acceleration * acceleration * choice->ramp.per_jerk
-               : v1;
+               ? choice->now->speed +
+                     acceleration * (choice->half_s + 0.5f * acceleration * choice->ramp.per_jerk)
+               : choice->now->speed;
 }
 
-// Limits that are lower behind a bound must be kept when it is passed.
-static void keep_next_span(choice_t *choice, span_t span, float distance) {
+// Limits that are lower behind the first bound must be kept when it is passed, `way` from the end of
+// the front block.
+static void keep_next_span(choice_t *choice, span_t span, int32_t way) {
     if (span.acceleration >= choice->span.acceleration) {
         return;
     }
+    float distance = (float)way * (1.0f / WAY_ONE) + choice->now->left;
     float excess = choice->chosen - span_acceleration(span);
     if (excess > 0.0f && excess * choice->ramp.per_jerk * choice->now->speed >= distance) {
         choice->chosen = greater(choice->least, span_acceleration(span));
@@ -161,11 +170,7 @@ static void keep_next_span(choice_t *choice, span_t span, float distance) {
 static float reach(const choice_t *choice) {
     float build_up_s = greater(choice->chosen, 0.0f) * choice->ramp.per_jerk;
     float peak = crest(choice, choice->chosen);
-    return ramp_distance_bound(&choice->ramp, peak, 0.0f) + peak * (choice->dt + build_up_s);
-}
-
-static float distance_to(const planner_bound_t *bound, uint32_t here, float left) {
-    return (float)(int32_t)(bound->way - here) * (1.0f / WAY_ONE) + left;
+    return ramp_distance_bound(&choice->ramp, peak, 0.0f) + peak * (choice->half_s + build_up_s);
 }
 
 static v2_t v2_above(float speed) {
@@ -173,30 +178,35 @@ static v2_t v2_above(float speed) {
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
+// The same in the units of planner_bound_t.way, from the end of the front block.
+static int32_t reach_way(const choice_t *choice) {
+    float way = (reach(choice) - choice->now->left) * WAY_ONE;
+    return way < (float)INT32_MAX ? (int32_t)way : INT32_MAX;
+}
+
+// Bounds that do not matter are passed over with integers alone; there may be hundreds.
 static void meet_bounds(choice_t *choice) {
     const block_t *second = planner_second();
     uint32_t here = second != NULL ? second->way : blocks.end_way;
     v2_t slower = v2_above(crest(choice, choice->chosen));
-    float within = reach(choice);
-    float first_distance = 0.0f;
+    int32_t within = reach_way(choice);
     float group_distance = 0.0f;
     float group_speed2 = -1.0f; // none
     float alike_speed2 = 0.0f;
+    int32_t way = 0;
     planner_bound_t bound;
     for (uint32_t n = 0; planner_bound(n, &bound); n++) {
-        v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
-        float distance = distance_to(&bound, here, choice->now->left);
-        if (n == 0) {
-            first_distance = distance;
-        } else if (n == 1) {
-            keep_next_span(choice, bound.span, first_distance);
+        if (n == 1) {
+            keep_next_span(choice, bound.span, way);
         }
+        way = (int32_t)(bound.way - here);
         if (take_span(choice, bound.span)) {
-            within = reach(choice);
+            within = reach_way(choice);
         }
-        if (distance > within) {
+        if (way > within) {
             break;
         }
+        v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
         if (cap >= slower) {
             continue;
         }
@@ -205,12 +215,12 @@ static void meet_bounds(choice_t *choice) {
         if (group_speed2 < 0.0f || speed2 < alike_speed2) {
             if (group_speed2 >= 0.0f) {
                 meet(choice, group_distance, sqrtf(group_speed2));
-                within = reach(choice);
+                within = reach_way(choice);
             }
             if (choice->tests >= TESTS_MAX) {
                 return;
             }
-            group_distance = distance;
+            group_distance = (float)way * (1.0f / WAY_ONE) + choice->now->left;
             alike_speed2 = speed2 * alike[choice->tests / ALIKE_CHANGES];
         }
         group_speed2 = speed2;
@@ -225,30 +235,30 @@ static void meet_bounds(choice_t *choice) {
 
 static float next_speed_scurve(const profile_t *now, const float *ticks) {
     const block_t *block = now->block;
-    choice_t choice = {.now = now, .dt = *ticks * TICK_S, .span = planner_span_of(block)};
+    float dt = *ticks * TICK_S;
+    choice_t choice = {.now = now, .half_s = 0.5f * dt, .span = planner_span_of(block)};
     ramp_set(&choice.ramp, block->move.acceleration, block->move.jerk);
-    float step = choice.ramp.jerk * choice.dt;
+    float step = choice.ramp.jerk * dt;
     float full = choice.ramp.acceleration;
     float most = now->acceleration + step;
     choice.least = now->acceleration - step;
     most = most > full ? greater(full, choice.least) : most;
     choice.least = choice.least < -full ? lesser(-full, most) : choice.least;
-    choice.chosen =
-        lesser(most, ramp_towards(&choice.ramp, now->speed, now->top, choice.dt));
+    choice.chosen = lesser(most, ramp_towards(&choice.ramp, now->speed, now->top, choice.half_s));
     choice.chosen = greater(choice.chosen, choice.least);
     meet_bounds(&choice);
 
-    float v1 = now->speed + choice.chosen * choice.dt;
+    float v1 = now->speed + choice.chosen * dt;
     if (choice.out_of_reach) {
-        // Limits fell behind what was promised: speed and acceleration first, jerk last.
-        v1 = lesser(v1, braking_speed(now, planner_exit_speed2(), choice.dt));
+        // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk last.
+        v1 = lesser(v1, HAIR * braking_speed(now, planner_exit_speed2(), dt));
     }
-    // Slower than this ends in a standstill; if that is not wanted it never gets slower.
-    float creep = 0.25f * step * choice.dt;
-    if (v1 < creep) {
-        v1 = now->top > 0.0f ? creep : 0.0f;
+    // What is left in the end may be a hair longer than planned: never slower than this before.
+    float creep = lesser(CREEP, 0.5f * full * dt);
+    if (v1 > creep) {
+        return v1;
     }
-    return v1;
+    return now->top > 0.0f ? creep : 0.0f;
 }
 
 float profile_next_speed(const profile_t *now, float *ticks) {

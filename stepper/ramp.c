@@ -18,9 +18,8 @@ void ramp_set(ramp_t *ramp, float acceleration, float jerk) {
 
 float ramp_distance(const ramp_t *ramp, float v, float w) {
     float change = v - w;
-    float time = change < ramp->full_change
-                     ? 2.0f * sqrtf(change * ramp->per_jerk)
-                     : change * ramp->per_acceleration + ramp->build_up_s;
+    float time = change < ramp->full_change ? 2.0f * sqrtf(change * ramp->per_jerk)
+                                            : change * ramp->per_acceleration + ramp->build_up_s;
     return 0.5f * (v + w) * time;
 }
 
@@ -41,18 +40,19 @@ float ramp_braking_distance(const ramp_t *ramp, float v, float a, float w) {
         return 0.0f;
     }
     if (v - taken_back <= w) {
-        // w is passed while the braking is taken back: at the latest after twice the time that it would
-        // take without that.
-        return (v * v - w * w) / -a;
+        // w is passed while the braking is taken back, after at most twice the time D / |a|, and
+        // above w the speed falls at least like a parabola: 2/3 of the rectangle D by D / |a|.
+        float change = v - w;
+        return change * (2.0f * w + (2.0f / 3.0f) * change) / -a;
     }
     // As if braking had begun where the acceleration was 0, less the way since then.
     float start = v + taken_back;
     return ramp_distance(ramp, start, w) + build_up * (start - (1.0f / 3.0f) * taken_back);
 }
 
-// The acceleration a over dt and then taken back gives v + a dt + a^2 / 2J = top; downwards alike.
-float ramp_towards(const ramp_t *ramp, float v, float top, float dt) {
-    float step = ramp->jerk * dt;
+// The acceleration a over `time` and then taken back gives v + a time + a^2 / 2J = top; downwards alike.
+float ramp_towards(const ramp_t *ramp, float v, float top, float time) {
+    float step = ramp->jerk * time;
     float change = top - v;
     float size = sqrtf(step * step + 2.0f * ramp->jerk * fabsf(change)) - step;
     return change < 0.0f ? -size : size;

@@ -22,8 +22,8 @@ float ramp_distance_bound(const ramp_t *ramp, float v, float w);
 // as the jerk allows. 0 if that never exceeds w.
 float ramp_braking_distance(const ramp_t *ramp, float v, float a, float w);
 
-// The acceleration over the next dt with which speed v comes to `top` as fast as possible, but can
-// still be taken back without passing it.
-float ramp_towards(const ramp_t *ramp, float v, float top, float dt);
+// The acceleration with which speed v comes to `top` as fast as possible, if it is kept for `time` s
+// and can then still be taken back without passing `top`.
+float ramp_towards(const ramp_t *ramp, float v, float top, float time);
 
 #endif
