@@ -4,32 +4,44 @@ The host program reads the G-code from its standard input with a small BASIC pro
 for room in the queue. Everything is virtual time, so a long job takes as long as computing it.
 """
 
+import math
 import re
 import subprocess
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path as FilePath
 
 import numpy as np
 
-from stepmite.gcode import AXES, read_blocks, target_steps
+from stepmite.follow import follow
+from stepmite.gcode import AXES, Block, read_blocks, target_steps
+from stepmite.limits import Judge
+from stepmite.path import Path, build
 from stepmite.plan import Machine
 from stepmite.trace import AxisPins, AxisTrace, Edges, axis_trace
 
-HOST_PROGRAM = Path(__file__).parents[2] / "build" / "host" / "stepmite"
+HOST_PROGRAM = FilePath(__file__).parents[2] / "build" / "host" / "stepmite"
 
 RECEIVER = """\
+begun = 0
 DO
   LINE INPUT code$
   IF code$ = "END" THEN EXIT DO
+  IF PEEK(STEPPER BUFFER) = 0 AND begun = 0 THEN
+    begun = TIMER
+    STEPPER RUN
+  ENDIF
   DO WHILE PEEK(STEPPER BUFFER) = 0
-    PAUSE 5
+    PAUSE 1
   LOOP
   STEPPER GS code$
 LOOP
-STEPPER RUN
+IF begun = 0 THEN
+  begun = TIMER
+  STEPPER RUN
+ENDIF
 DO WHILE PEEK(STEPPER ACTIVE) = 1
-  PAUSE 5
 LOOP
+PRINT "Taken"; TIMER - begun; " ms"
 STEPPER STATUS
 """
 
@@ -44,7 +56,14 @@ class Setup:
     inverted: tuple = (False, True, False, False)
     blocks: int = 1024
     queue_first: bool = False
-    """Arm only when all is queued, so that the plan does not depend on the pace of the queuing."""
+    """Arm only when all is queued or the queue is full, so that the plan does not depend on the
+    pace of the queuing."""
+    junction_mm: float | None = None
+    """Junction deviation; None: as it is after INIT."""
+    jerk: float | None = None
+    """Path jerk in mm/s^3; None: trapezoid."""
+    axis_jerk: tuple = ()
+    """Jerk of each axis; empty: none of its own."""
     extra: tuple = field(default=())
     """More BASIC lines before the first move."""
 
@@ -56,7 +75,11 @@ class Setup:
 
     def machine(self) -> Machine:
         return Machine(
-            tuple(v / 60 for v in self.max_velocity_per_min), tuple(self.max_acceleration)
+            tuple(v / 60 for v in self.max_velocity_per_min),
+            tuple(self.max_acceleration),
+            0.02 if self.junction_mm is None else self.junction_mm,
+            math.inf if self.jerk is None else self.jerk,
+            self.axis_jerk or (math.inf,) * 4,
         )
 
     def program(self) -> str:
@@ -67,9 +90,15 @@ class Setup:
                 f"{int(pin.inverted)},{pin.steps_per_unit:.9g},"
                 f"{self.max_velocity_per_min[i]:.9g},{self.max_acceleration[i]:.9g}"
             )
+        if self.junction_mm is not None:
+            lines.append(f"STEPPER JUNCTION {self.junction_mm:.9g}")
+        if self.jerk is not None:
+            values = (self.jerk, *self.axis_jerk)
+            lines.append("STEPPER JERK " + ",".join(f"{value:.9g}" for value in values))
+            lines.append("STEPPER SCURVE 1")
         lines += [*self.extra, "STEPPER POSITION HOME"]
         if not self.queue_first:
-            lines.append("STEPPER RUN")
+            lines += ["STEPPER RUN"]
         return "\n".join(lines) + "\n" + RECEIVER
 
 
@@ -81,6 +110,7 @@ class Result:
     """Commanded corners in steps, the start first, without moves that lead nowhere."""
     targets: np.ndarray
     """The same corners in mm and degrees, as commanded."""
+    blocks: list[Block]
     output: str
 
     def end_steps(self) -> list[int]:
@@ -90,6 +120,19 @@ class Result:
     def reported_steps(self) -> list[int]:
         """Position as STEPPER STATUS says it."""
         return [int(n) for n in re.findall(r"^[XYZA]: .*\((-?\d+) steps\)", self.output, re.M)]
+
+    def taken_s(self) -> float:
+        """Time from STEPPER RUN to the end of the last block, if all was queued first."""
+        return float(re.search(r"^Taken ([0-9.]+) ms", self.output, re.M)[1]) / 1000
+
+    def path(self) -> Path:
+        """What was commanded."""
+        return build(self.blocks, self.setup.machine(), self.setup.steps_per_unit)
+
+    def judge(self) -> Judge:
+        """The motion beside what was commanded; TraceError if the path was left."""
+        path = self.path()
+        return Judge(path, self.setup.machine(), follow(path, self.traces), self.traces)
 
     def motion_s(self) -> float:
         """Time from the first to the last step."""
@@ -109,7 +152,7 @@ def corners_of(lines, steps_per_unit) -> tuple[np.ndarray, np.ndarray]:
     return np.array(corners), np.array(targets)
 
 
-def run(folder: Path, lines: list[str], setup: Setup | None = None) -> Result:
+def run(folder: FilePath, lines: list[str], setup: Setup | None = None) -> Result:
     """Carry out G-code lines; fails the test if the firmware refuses one."""
     setup = setup or Setup()
     program, trace = folder / "receiver.bas", folder / "edges.csv"
@@ -126,4 +169,5 @@ def run(folder: Path, lines: list[str], setup: Setup | None = None) -> Result:
     edges = Edges.read(trace)
     trace.unlink()
     traces = [axis_trace(edges, pin) for pin in setup.pins()]
-    return Result(setup, traces, *corners_of(lines, setup.steps_per_unit), done.stdout)
+    corners = corners_of(lines, setup.steps_per_unit)
+    return Result(setup, traces, *corners, list(read_blocks(lines)), done.stdout)

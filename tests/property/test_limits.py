@@ -3,12 +3,10 @@
 import math
 import random
 
-import numpy as np
 import pytest
 from host_machine import Setup, run
 
 from stepmite import oracle
-from stepmite.plan import junction_speed
 
 TOLERANCE = 1.02
 
@@ -58,11 +56,17 @@ def moved(request, tmp_path_factory):
     return run(tmp_path_factory.mktemp("moved"), lines, setup)
 
 
+@pytest.fixture(scope="module")
+def judge(moved):
+    return moved.judge()
+
+
 def test_ends_where_it_was_sent(moved):
     assert moved.end_steps() == moved.corners[-1].tolist()
 
 
-def test_path_is_kept_within_a_step(moved):
+def test_path_is_kept_within_a_step(moved, judge):
+    assert judge.deviation_steps().value <= 1.0
     blocks = oracle.split_blocks(moved.traces, moved.corners)
     assert oracle.block_deviation(moved.traces, blocks).max() <= 1.0
 
@@ -77,40 +81,21 @@ def test_steps_are_two_ticks_apart_and_directions_have_time(moved):
         assert oracle.min_dir_hold_ns(trace) >= 10_000
 
 
-def test_speed_and_acceleration_of_every_axis_stay_within_their_limits(moved):
-    blocks = oracle.split_blocks(moved.traces, moved.corners)
-    machine = moved.setup.machine()
-    measured = 0
-    for begin, end in zip(blocks.begin_ns, blocks.end_ns, strict=True):
-        for axis, trace in enumerate(moved.traces):
-            found = oracle.extremes(trace, int(begin), int(end))
-            if found is not None:
-                measured += 1
-                fastest = machine.max_velocity[axis] * TOLERANCE
-                hardest = machine.max_acceleration[axis] * TOLERANCE
-                assert found.speed <= fastest + found.speed_error
-                assert found.acceleration <= hardest + found.acceleration_error
-    assert measured > 100
+def test_speed_and_acceleration_of_every_axis_stay_within_their_limits(judge):
+    for axis in judge.progress.axes:
+        speed, acceleration = judge.axis_speed(axis), judge.axis_acceleration(axis)
+        assert speed.used <= TOLERANCE, speed
+        assert acceleration.used <= TOLERANCE, acceleration
+        assert acceleration.count > 100
 
 
-def test_corners_are_passed_no_faster_than_junction_deviation_allows(moved):
-    blocks = oracle.split_blocks(moved.traces, moved.corners)
-    machine = moved.setup.machine()
-    moves = np.diff(moved.targets, axis=0)
-    directions = [tuple(move / (math.hypot(*move[:3]) or abs(move[3]))) for move in moves]
-    seen = 0
-    for index in range(len(moves) - 1):
-        hardest = path_limit(directions[index], machine.max_acceleration)
-        found = oracle.exit_speed(moved.traces, blocks, index, hardest)
-        if found is None:
-            continue
-        seen += 1
-        corner = junction_speed(directions[index], directions[index + 1], machine)
-        allowed = math.sqrt((corner * TOLERANCE) ** 2 + 2 * hardest * found.before_corner)
-        assert found.speed <= allowed + found.error
-    assert seen > 20
+def test_feed_and_acceleration_along_the_path(judge):
+    feed, acceleration = judge.feed(), judge.path_acceleration()
+    assert feed.used <= 1.0, feed
+    assert 0.95 < acceleration.used <= TOLERANCE, acceleration
 
 
-def path_limit(direction, limits):
-    pairs = zip(direction, limits, strict=True)
-    return min(limit / abs(part) for part, limit in pairs if part)
+def test_corners_are_passed_no_faster_than_junction_deviation_allows(judge):
+    corners = judge.corners()
+    assert corners.used <= 1.0, corners
+    assert corners.count > 200
