@@ -7,6 +7,9 @@
 #include "basic_cmds/report.h"
 #include "stepper/stepper.h"
 
+#define CTRL_F 6
+#define CTRL_R 18
+
 #define OPTIONAL BASIC_ARG_OPTIONAL
 #define DEFAULTS (BASIC_ARG_OPTIONAL | BASIC_ARG_DEFAULT)
 #define ABOVE BASIC_ARG_ABOVE_MIN
@@ -146,4 +149,17 @@ void basic_cmds_break(void) {
         basic_notice("Ctrl-C: motion stops, what was queued is dropped");
     }
     stepper_stop();
+}
+
+bool basic_cmds_control(char c) {
+    stepper_status_t status;
+    stepper_status(&status);
+    if ((c != CTRL_F && c != CTRL_R) || (!status.moving && !status.holding)) {
+        return false;
+    }
+    bool hold = c == CTRL_F;
+    if (hold != status.holding && !status.stopping && stepper_hold(hold) == ERR_OK) {
+        basic_notice(hold ? "Feed hold (Ctrl-R or STEPPER RESUME goes on)" : "Resumed");
+    }
+    return true;
 }

@@ -17,4 +17,8 @@ void basic_cmds_background(void);
 // Ctrl-C: brings motion to a controlled stop.
 void basic_cmds_break(void);
 
+// Ctrl-F is feed hold, Ctrl-R resumes. False while there is nothing they could act on, and for all other
+// characters.
+bool basic_cmds_control(char c);
+
 #endif

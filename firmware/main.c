@@ -23,6 +23,7 @@ static void start_basic(void) {
         .arena_size = ARENA_SIZE,
         .background = basic_cmds_background,
         .on_break = basic_cmds_break,
+        .on_control = basic_cmds_control,
         .banner = start.banner,
     };
     config.commands = basic_cmds_commands;

@@ -21,8 +21,15 @@
 #include "words.h"
 
 #define PRINT_SIZE 256
+#define NOTICES_SIZE 256
 
 static const basic_config_t *config;
+
+// Notices that came while the console was busy, each with its line end.
+static struct {
+    char text[NOTICES_SIZE];
+    size_t length;
+} waiting;
 
 // ---- Printing ------------------------------------------------------------------------------------
 
@@ -45,12 +52,7 @@ void basic_printf(const char *format, ...) {
     write_lines(text);
 }
 
-void basic_notice(const char *format, ...) {
-    char text[PRINT_SIZE];
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
+static void show_notice(const char *text) {
     bool typing = line_editor_hide();
     if (!typing) {
         console_fresh_line();
@@ -60,6 +62,44 @@ void basic_notice(const char *format, ...) {
     if (typing) {
         line_editor_show();
     }
+}
+
+static void keep_notice(const char *text) {
+    size_t length = strlen(text);
+    if (length + 1 < NOTICES_SIZE - waiting.length) {
+        memcpy(waiting.text + waiting.length, text, length);
+        waiting.length += length;
+        waiting.text[waiting.length++] = '\n';
+        waiting.text[waiting.length] = '\0';
+    }
+}
+
+void basic_notice(const char *format, ...) {
+    char text[PRINT_SIZE];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    if (console_is_busy()) {
+        keep_notice(text);
+    } else {
+        show_notice(text);
+    }
+}
+
+static void show_waiting_notices(void) {
+    if (waiting.length != 0 && !console_is_busy()) {
+        char text[NOTICES_SIZE]; // while these are printed more may come
+        memcpy(text, waiting.text, sizeof text);
+        waiting.length = 0;
+        show_notice(text);
+    }
+}
+
+// Whenever the console waits and every few statements; the product's part also at each statement.
+static void background(void) {
+    show_waiting_notices();
+    vm.background();
 }
 
 char *basic_format_number(char *buffer, size_t size, double value) {
@@ -198,7 +238,8 @@ static void no_background(void) {}
 void basic_start(const basic_config_t *new_config) {
     config = new_config;
     vm.background = config->background != NULL ? config->background : no_background;
-    console_start(vm.background);
+    waiting.length = 0;
+    console_start(background, config->on_control);
     line_editor_start();
     args_start(config);
     help_start(config);
@@ -232,6 +273,7 @@ err_t basic_run_program(const char *source, size_t length) {
 bool basic_prompt(void) {
     static const line_editor_options_t options = {.prompt = "> ", .history = true};
     console_fresh_line();
+    show_waiting_notices();
     if (console_lost_input()) {
         console_print("Warning: input that the program did not read was lost\r\n");
     }

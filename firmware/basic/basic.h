@@ -112,7 +112,11 @@ typedef struct {
     void (*background)(
         void); // called at each statement and whenever the interpreter waits; NULL: none
     void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
-    const char *banner;     // printed by basic_start(), lines end with \r\n
+    // Called as soon as a control character other than Ctrl-C comes from the terminal: in the middle of a
+    // statement, of output or of a line being typed. True: it was meant for the product and is no input.
+    // May call basic_notice(); must not raise errors. NULL: all are input.
+    bool (*on_control)(char c);
+    const char *banner; // printed by basic_start(), lines end with \r\n
 } basic_config_t;
 
 // Takes the configuration (which must stay valid), clears everything and prints the banner.
@@ -131,7 +135,8 @@ bool basic_prompt(void);
 void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // A line from outside the running statement (an event of the machine). It stands on a line of its
-// own: a line being typed is taken away and drawn again below.
+// own: a line being typed is taken away and drawn again below. Shown at the next place where that can be
+// done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // Writes `value` as PRINT does, without the leading blank. Returns `buffer`.

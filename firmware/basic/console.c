@@ -24,15 +24,28 @@ static struct {
     bool in_escape; // a VT100 sequence is being written; it does not move the column
     bool running;
     bool flushing;
+    bool polling;
+    bool raw;
     bool break_pending;
     bool lost_input;
     uint64_t full_since_us; // 0: the ring is not full
+    unsigned seen;          // bytes that came, input or not; free-running
     void (*background)(void);
+    console_control_t on_control;
 } console;
 
-void console_start(void (*background)(void)) {
+void console_start(void (*background)(void), console_control_t on_control) {
     memset(&console, 0, sizeof console);
     console.background = background;
+    console.on_control = on_control;
+}
+
+void console_set_raw(bool raw) {
+    console.raw = raw;
+}
+
+bool console_is_busy(void) {
+    return console.flushing || console.polling;
 }
 
 // Ctrl-C that came together with the line it is to stop. Behind a further line it is left for then:
@@ -70,10 +83,32 @@ static unsigned input_room(void) {
     return INPUT_SIZE - (console.received - console.taken);
 }
 
-static void receive(uint8_t byte, bool watch_break) {
-    if (byte == CTRL_C && watch_break) {
+static bool watches_break(void) {
+    return (console.running || console.flushing) && !console.raw;
+}
+
+bool console_offer_control(int byte) {
+    return byte >= 0 && byte < ' ' && console.on_control != NULL && console.on_control((char)byte);
+}
+
+// True if the byte is one that acts as soon as it comes, ahead of all input, and has done so. Where
+// control characters do not come from a keyboard they wait for their turn: what a script does must not
+// depend on how far ahead of it the script is read.
+static bool acts_at_once(uint8_t byte) {
+    if (byte >= ' ' || console.raw) {
+        return false;
+    }
+    if (byte == CTRL_C && watches_break()) {
         console.break_pending = true;
         console.taken = console.received;
+        return true;
+    }
+    return hal_console_break_is_inband() && console_offer_control(byte);
+}
+
+static void receive(uint8_t byte) {
+    console.seen++;
+    if (acts_at_once(byte)) {
         return;
     }
     if (input_room() == 0) {
@@ -84,9 +119,9 @@ static void receive(uint8_t byte, bool watch_break) {
 }
 
 // How many bytes to fetch although the ring may be full.
-static unsigned fetch_limit(bool watch_break) {
+static unsigned fetch_limit(void) {
     unsigned room = input_room();
-    if (room != 0 || !watch_break || !hal_console_break_is_inband()) {
+    if (room != 0 || !watches_break() || !hal_console_break_is_inband()) {
         console.full_since_us = 0;
         return room;
     }
@@ -98,19 +133,21 @@ static unsigned fetch_limit(bool watch_break) {
 }
 
 void console_poll(void) {
-    bool watch_break = console.running || console.flushing;
+    if (console.polling) { // asked by what a byte just received has set off: the next one waits
+        return;
+    }
+    console.polling = true;
     uint8_t bytes[64];
-    for (;;) {
-        unsigned limit = fetch_limit(watch_break);
-        size_t count =
+    size_t count;
+    do {
+        unsigned limit = fetch_limit();
+        count =
             limit == 0 ? 0 : hal_console_read(bytes, limit < sizeof bytes ? limit : sizeof bytes);
         for (size_t i = 0; i < count; i++) {
-            receive(bytes[i], watch_break);
+            receive(bytes[i]);
         }
-        if (count == 0) {
-            return;
-        }
-    }
+    } while (count != 0);
+    console.polling = false;
 }
 
 bool console_has_input(void) {
@@ -152,8 +189,10 @@ void console_flush(void) {
     while (sent < console.output_length && !console.break_pending) {
         size_t took = hal_console_write(console.output + sent, console.output_length - sent);
         sent += (unsigned)took;
-        if (took == 0) {
+        if (took == 0 || console.running) { // one statement may print for seconds
             console_poll();
+        }
+        if (took == 0) {
             console.background();
             hal_idle(hal_time_us() + BLOCKED_RETRY_US);
         }
@@ -209,13 +248,18 @@ unsigned console_column(void) {
     return console.column;
 }
 
+void console_background(void) {
+    console.background();
+}
+
 void console_wait(uint64_t until_us) {
+    unsigned seen = console.seen;
+    console_poll();
+    console.background(); // may print what came of it
     if (console.output_length != 0) {
         console_flush();
     }
-    console.background();
-    console_poll();
-    if (!console.break_pending) {
+    if (!console.break_pending && console.seen == seen) {
         hal_idle(until_us);
         console_poll();
     }

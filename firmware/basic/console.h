@@ -7,14 +7,25 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// `background` is called whenever the console waits.
-void console_start(void (*background)(void));
+// Told of a control character; true: it has done what it is for and is no input.
+typedef bool (*console_control_t)(char c);
+
+// `background` is called whenever the console waits. `on_control` is called inside console_poll(), that
+// is from any place that waits, prints or runs statements; NULL: none.
+void console_start(void (*background)(void), console_control_t on_control);
 
 // ---- Input ---------------------------------------------------------------------------------------
 
 // While a program or a command runs, Ctrl-C in the received bytes is not input but a request to stop,
-// which also throws away what was typed before it.
+// which also throws away what was typed before it. Other control characters are offered to `on_control`
+// at all times, as soon as they come from a terminal and ahead of all input before them.
 void console_set_running(bool running);
+
+// While on, every byte is input and none acts by itself: for protocols whose bytes mean something else.
+void console_set_raw(bool raw);
+
+// Offers a control character whose turn as input has come; true: it was taken.
+bool console_offer_control(int byte);
 
 // Takes in what was received. Cheap if there is nothing.
 void console_poll(void);
@@ -53,7 +64,14 @@ void console_send(void);
 // the output not sent yet is dropped.
 void console_flush(void);
 
+// True while bytes are being taken in or sent: nothing may be printed that must not be lost, or that
+// belongs between lines.
+bool console_is_busy(void);
+
 // ---- Waiting -------------------------------------------------------------------------------------
+
+// Lets the background work.
+void console_background(void);
 
 // Sends pending output, lets the background work and sleeps until something happens or `until_us`.
 void console_wait(uint64_t until_us);

@@ -341,8 +341,10 @@ static void edit(int key) {
         insert(editor.options->keep_tabs ? '\t' : ' ');
         break;
     default:
-        if (key >= ' ' && key <= 255) { // other control bytes are noise
+        if (key >= ' ' && key <= 255) {
             insert((char)key);
+        } else if (key < ' ') { // nobody's: noise
+            console_offer_control(key);
         }
         break;
     }

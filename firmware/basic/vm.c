@@ -16,7 +16,9 @@
 #include "hal/hal.h"
 #include "variables.h"
 
-#define POLL_EVERY 16 // statements between two looks for Ctrl-C
+// Statements between two looks for input of which the board has said nothing (what was left in its
+// buffers), and between two times that output is sent.
+#define POLL_EVERY 16
 
 vm_t vm;
 
@@ -38,6 +40,7 @@ static void attend(void) {
     poll_countdown = POLL_EVERY;
     console_send(); // or what was printed would wait for the end of a long computation
     console_poll();
+    console_background(); // may print what came of it
     if (console_break_pending()) {
         errors_break();
     }
@@ -46,10 +49,10 @@ static void attend(void) {
 static void begin_statement(const uint8_t *statement) {
     vm.statement = statement;
     memory.scratch = vm.scratch_base;
-    if (--poll_countdown == 0) {
+    bool input_came = hal_statement();
+    if (input_came || --poll_countdown == 0) {
         attend();
     }
-    hal_statement();
     vm.background();
     if (vm.on_error == VM_ERROR_SKIP) {
         if (vm.skip_count == 0) {

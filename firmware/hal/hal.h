@@ -51,9 +51,10 @@ uint64_t hal_time_us(void);
 // whichever comes first; may return early. UINT64_MAX: no time limit.
 void hal_idle(uint64_t until_us);
 
-// Called once for each BASIC statement. Costs nothing on a board; the host port lets a statement's
+// Called once for each BASIC statement. Costs next to nothing on a board; the host port lets a statement's
 // worth of virtual time pass, so that a program that only computes sees motion go on.
-void hal_statement(void);
+// True if console input has come since the last call: worth a look at once.
+bool hal_statement(void);
 
 // ---- Tick and governor ---------------------------------------------------------------------------
 
@@ -103,8 +104,8 @@ void hal_pin_release(unsigned gpio);
 // Takes up to `size` received bytes; 0 if there are none.
 size_t hal_console_read(uint8_t *bytes, size_t size);
 
-// True if Ctrl-C comes in the same stream as everything else, as from a terminal, and may therefore stand
-// behind input that nobody takes. False: it comes ahead of all input.
+// True if Ctrl-C and other control keys come in the same stream as everything else, as from a terminal, and
+// may therefore stand behind input that nobody takes. False: Ctrl-C comes ahead of all input.
 bool hal_console_break_is_inband(void);
 
 // Takes up to `size` bytes for sending and returns how many it took; 0 if the way is full just now.

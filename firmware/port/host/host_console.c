@@ -28,6 +28,7 @@ static struct {
     queue_t input;
     queue_t output;
     bool at_end;
+    bool came;             // input, since host_console_take_came()
     uint64_t changes;      // times input came or was taken
     uint64_t changes_seen; // as of the last host_console_has_news()
     unsigned idle_reads;   // hal_console_read() in vain since the last look at stdin
@@ -65,6 +66,7 @@ static void take_input(void) {
         size_t got = console.peer->send(to, room);
         console.input.end += got;
         console.changes += got > 0;
+        console.came |= got > 0;
         console.at_end = console.peer->at_end();
         return;
     }
@@ -86,6 +88,7 @@ static void take_input(void) {
     }
     console.input.end += (size_t)got;
     console.changes++;
+    console.came = true;
 }
 
 size_t hal_console_read(uint8_t *bytes, size_t size) {
@@ -114,6 +117,12 @@ bool host_console_has_news(void) {
     bool news = console.changes != console.changes_seen && queue_used(&console.input) > 0;
     console.changes_seen = console.changes;
     return news || host_signals_interrupted();
+}
+
+bool host_console_take_came(void) {
+    bool came = console.came;
+    console.came = false;
+    return came || host_signals_interrupted();
 }
 
 bool host_console_at_end(void) {

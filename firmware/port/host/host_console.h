@@ -14,6 +14,9 @@ void host_console_poll(void);
 // taken, since this was last asked. Input the firmware leaves lying is no news.
 bool host_console_has_news(void);
 
+// True if input, or SIGINT, came since this was last asked.
+bool host_console_take_came(void);
+
 // True once stdin has ended; input may still be waiting to be taken.
 bool host_console_at_end(void);
 

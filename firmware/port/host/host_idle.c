@@ -140,11 +140,12 @@ void hal_idle(uint64_t until_us) {
     host_signals_check();
 }
 
-void hal_statement(void) {
+bool hal_statement(void) {
     host_signals_check();
     if (idle.realtime) {
         host_clock_run(due_ns(host_clock_now_ns()), false);
     } else {
         host_clock_run(host_clock_now_ns() + STATEMENT_NS, false);
     }
+    return host_console_take_came();
 }

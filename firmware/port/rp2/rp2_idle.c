@@ -11,6 +11,7 @@
 #include "rp2_port.h"
 
 volatile bool rp2_wake;
+volatile bool rp2_input_came;
 
 static unsigned idle_alarm;
 
@@ -42,6 +43,11 @@ void hal_idle(uint64_t until_us) {
     rp2_wake = false;
 }
 
-void hal_statement(void) {
+bool hal_statement(void) {
     rp2_fault_feed();
+    bool came = rp2_input_came;
+    if (came) {
+        rp2_input_came = false; // what comes behind this line sets it again
+    }
+    return came;
 }

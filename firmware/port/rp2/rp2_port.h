@@ -42,6 +42,11 @@ void isr_hardfault(void);
 // Makes running over the end of main's stack a fault.
 void rp2_stack_guard(void);
 
+// ---- Console --------------------------------------------------------------------------------------
+
+// Set by interrupts when console input came; cleared by hal_statement().
+extern volatile bool rp2_input_came;
+
 // ---- UART console ---------------------------------------------------------------------------------
 
 void rp2_uart_start(void);

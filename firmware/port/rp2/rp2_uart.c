@@ -47,6 +47,7 @@ static void keep(uint8_t byte) {
     }
     uart.rx_bytes[uart.rx.put_slot] = byte;
     ring_put(&uart.rx);
+    rp2_input_came = true;
     uart.in_line = byte != '\r' && byte != '\n';
 }
 

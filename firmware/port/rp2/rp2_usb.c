@@ -72,6 +72,7 @@ void tud_cdc_rx_cb(uint8_t itf) {
         terminal.moved_us = time_us_32();
         rp2_console_on_usb_line(true);
     }
+    rp2_input_came = true;
     rp2_wake = true;
 }
 

@@ -8,15 +8,19 @@
 
 #define INPUT_SIZE 40000
 #define SHOWN_SIZE 100000
+#define LATER_MAX 4
 #define ARENA_SIZE (96 * 1024)
 
 board_t board;
 
 static struct {
     char input[INPUT_SIZE];
-    size_t received, typed;
-    char later[64];
-    uint64_t later_us;
+    size_t received, typed, told;
+    struct {
+        uint64_t at_us;
+        char text[64];
+    } later[LATER_MAX];
+    size_t later_first, later_count;
     char shown[SHOWN_SIZE];
     size_t shown_length;
     uint8_t flash[HAL_STORAGE_SIZE];
@@ -38,6 +42,18 @@ static void count_break(void) {
     board.breaks++;
 }
 
+// Takes Ctrl-F while board.controllable, and says so.
+static bool take_control(char c) {
+    if (!board.controllable || c != '\x06') {
+        return false;
+    }
+    board.controls++;
+    board.control_us = board.time_us;
+    board.control_writes = board.writes;
+    basic_notice("held");
+    return true;
+}
+
 void board_start(const basic_command_t *commands, size_t command_count,
                  const basic_function_t *functions, size_t function_count) {
     state.config = (basic_config_t){
@@ -49,6 +65,7 @@ void board_start(const basic_command_t *commands, size_t command_count,
         .function_count = function_count,
         .background = count_background,
         .on_break = count_break,
+        .on_control = take_control,
     };
     basic_start(&state.config);
 }
@@ -59,8 +76,8 @@ void board_type(const char *bytes, size_t length) {
 }
 
 void board_type_at(uint64_t time_us, const char *text) {
-    state.later_us = time_us;
-    snprintf(state.later, sizeof state.later, "%s", text);
+    state.later[state.later_count].at_us = time_us;
+    snprintf(state.later[state.later_count++].text, sizeof state.later[0].text, "%s", text);
 }
 
 const char *board_shown(void) {
@@ -81,11 +98,15 @@ const char *board_session(const char *text) {
 
 // ---- The board -----------------------------------------------------------------------------------
 
+// When somebody types again; UINT64_MAX: never.
+static uint64_t next_typing_us(void) {
+    return state.later_first < state.later_count ? state.later[state.later_first].at_us
+                                                 : UINT64_MAX;
+}
+
 static void type_what_is_due(void) {
-    if (state.later[0] != '\0' && board.time_us >= state.later_us) {
-        char text[sizeof state.later];
-        strcpy(text, state.later);
-        state.later[0] = '\0';
+    while (board.time_us >= next_typing_us()) {
+        const char *text = state.later[state.later_first++].text;
         board_type(text, strlen(text));
     }
 }
@@ -100,7 +121,7 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
 }
 
 bool hal_console_break_is_inband(void) {
-    return true;
+    return !board.piped;
 }
 
 size_t hal_console_write(const uint8_t *bytes, size_t size) {
@@ -112,11 +133,14 @@ size_t hal_console_write(const uint8_t *bytes, size_t size) {
     memcpy(state.shown + state.shown_length, bytes, size);
     state.shown_length += size;
     board.writes++;
+    if (board.writes == board.hold_at_write) {
+        board_type("\x06", 1);
+    }
     return size;
 }
 
 bool hal_end_of_input(void) {
-    return state.received == state.typed && state.later[0] == '\0';
+    return state.received == state.typed && next_typing_us() == UINT64_MAX;
 }
 
 uint64_t hal_time_us(void) {
@@ -124,18 +148,20 @@ uint64_t hal_time_us(void) {
 }
 
 void hal_idle(uint64_t until_us) {
-    uint64_t next = until_us;
-    if (state.later[0] != '\0' && state.later_us < next) {
-        next = state.later_us;
-    }
+    uint64_t typing_us = next_typing_us();
+    uint64_t next = typing_us < until_us ? typing_us : until_us;
     if (next != UINT64_MAX && next > board.time_us) {
         board.time_us = next;
     }
 }
 
-void hal_statement(void) {
+bool hal_statement(void) {
     board.statements++;
     board.time_us += 10;
+    type_what_is_due();
+    bool came = state.typed != state.told;
+    state.told = state.typed;
+    return came;
 }
 
 bool hal_tick_running(void) {

@@ -19,7 +19,7 @@ void board_start(const basic_command_t *commands, size_t command_count,
 // Bytes the terminal sends next.
 void board_type(const char *bytes, size_t length);
 
-// Bytes the terminal sends once the time has come.
+// Bytes the terminal sends once the time has come; up to four, in order.
 void board_type_at(uint64_t time_us, const char *text);
 
 // What was shown since the last call; zero-terminated.
@@ -35,6 +35,12 @@ typedef struct {
     unsigned writes;           // calls of hal_console_write() that took something
     unsigned backgrounds;      // calls of the background hook
     unsigned breaks;           // calls of on_break
+    bool controllable;         // there is something that Ctrl-F acts on
+    unsigned controls;         // times Ctrl-F did
+    uint64_t control_us;       // when it last did
+    unsigned control_writes;   // writes until then
+    unsigned hold_at_write;    // the terminal sends Ctrl-F when it gets this write
+    bool piped;                // input is no terminal
     unsigned statements;
     int fail_program_after; // pages until programming the flash fails, -1: never
 } board_t;

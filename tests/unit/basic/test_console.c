@@ -5,6 +5,7 @@
 #include <unity.h>
 
 #include "board.h"
+#include "basic/console.h"
 
 void setUp(void) {
     board_reset();
@@ -102,6 +103,95 @@ static void test_format_number(void) {
     TEST_ASSERT_EQUAL_STRING("0.3", basic_format_number(text, 4, 1.0 / 3.0));
 }
 
+// ---- Characters that act at once -----------------------------------------------------------------
+
+static void test_a_control_acts_within_a_statement_of_a_program(void) {
+    board.controllable = true;
+    board_type_at(5000, "\x06");
+    board_session("FOR i%=1 TO 2000:NEXT\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.controls);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT64(5020, board.control_us); // a statement takes 10 us
+}
+
+static void test_a_control_acts_at_once_in_a_pause_that_goes_on(void) {
+    board.controllable = true;
+    board_type_at(20000, "\x06");
+    const char *shown = board_session("PAUSE 100:PRINT 7\r");
+    TEST_ASSERT_EQUAL_STRING("> PAUSE 100:PRINT 7\r\nheld\r\n 7\r\n> ", shown);
+    TEST_ASSERT_EQUAL_UINT64(20000, board.control_us);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(100000, board.time_us);
+}
+
+static void test_a_control_leaves_the_line_being_typed_whole(void) {
+    board.controllable = true;
+    board_type("PRINT 12", 8);
+    board_type_at(20000, "\x06");
+    board_type_at(30000, "3\r");
+    const char *shown = board_session("");
+    TEST_ASSERT_EQUAL_STRING("> PRINT 12\r\x1b[Jheld\r\n> PRINT 123\r\n 123\r\n> ", shown);
+    TEST_ASSERT_EQUAL_UINT64(20000, board.control_us);
+}
+
+static void test_a_control_overtakes_input_and_takes_none_of_it(void) {
+    board.controllable = true;
+    board_type_at(20000, "PRINT 1\rPRINT 2\r\x06PRINT 3\r");
+    const char *shown = board_session("PAUSE 100\r");
+    TEST_ASSERT_EQUAL_UINT64(20000, board.control_us);
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 1\r\n> PRINT 2\r\n 2\r\n> PRINT 3\r\n 3\r\n"));
+}
+
+static void test_a_control_acts_in_the_middle_of_a_long_output(void) {
+    board.controllable = true;
+    board.hold_at_write = 2;
+    const char *shown = board_session("HELP\r");
+    TEST_ASSERT_GREATER_THAN_UINT(4, board.writes);
+    TEST_ASSERT_EQUAL_UINT(2, board.control_writes);
+    TEST_ASSERT_NOT_NULL(strstr(shown, "HELP PRINT.\r\nheld\r\n> ")); // not in the middle of it
+}
+
+static void test_a_control_acts_while_the_terminal_does_not_read(void) {
+    board.controllable = true;
+    board.blocked_until_us = 600000;
+    board_type_at(100000, "\x06");
+    const char *shown = board_session("FOR i%=1 TO 40:PRINT STRING$(29,\"x\"):NEXT\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.controls);
+    TEST_ASSERT_UINT64_WITHIN(1000, 100000, board.control_us);
+    TEST_ASSERT_NOT_NULL(strstr(shown, "x\r\nheld\r\nx"));
+}
+
+static void test_a_control_with_nothing_to_act_on_is_input(void) {
+    const char *shown = board_session("PRINT ASC(INKEY$)\r\x06");
+    TEST_ASSERT_EQUAL_STRING("> PRINT ASC(INKEY$)\r\n 6\r\n> ", shown);
+    TEST_ASSERT_EQUAL_UINT(0, board.controls);
+}
+
+static void test_a_control_of_a_script_waits_for_its_turn(void) {
+    board.controllable = board.piped = true;
+    const char *shown = board_session("PAUSE 100\rPRINT 1\r\x06PRINT 2\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.controls);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(100000, board.control_us);
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 1\r\n> \r\x1b[Jheld\r\n> PRINT 2\r\n 2\r\n"));
+}
+
+static void test_nothing_acts_in_raw_mode(void) {
+    board.controllable = true;
+    console_set_running(true);
+    console_set_raw(true);
+    board_type("\x03\x06", 2);
+    console_poll();
+    TEST_ASSERT_FALSE(console_break_pending());
+    TEST_ASSERT_EQUAL_INT(3, console_take());
+    TEST_ASSERT_EQUAL_INT(6, console_take());
+    console_set_raw(false);
+    board_type("\x06\x03", 2);
+    console_poll();
+    TEST_ASSERT_TRUE(console_break_pending());
+    TEST_ASSERT_EQUAL_INT(-1, console_take());
+    TEST_ASSERT_EQUAL_UINT(1, board.controls);
+}
+
+// ---- The program in flash ------------------------------------------------------------------------
+
 #define PROGRAM(text) "AUTOSAVE\r" text "\r\x1a"
 
 static const char *run_again(void) {
@@ -153,6 +243,15 @@ int main(void) {
     RUN_TEST(test_a_program_that_does_not_read_its_input_can_be_stopped);
     RUN_TEST(test_a_notice_stands_on_its_own_line);
     RUN_TEST(test_a_notice_within_output);
+    RUN_TEST(test_a_control_acts_within_a_statement_of_a_program);
+    RUN_TEST(test_a_control_acts_at_once_in_a_pause_that_goes_on);
+    RUN_TEST(test_a_control_leaves_the_line_being_typed_whole);
+    RUN_TEST(test_a_control_overtakes_input_and_takes_none_of_it);
+    RUN_TEST(test_a_control_acts_in_the_middle_of_a_long_output);
+    RUN_TEST(test_a_control_acts_while_the_terminal_does_not_read);
+    RUN_TEST(test_a_control_with_nothing_to_act_on_is_input);
+    RUN_TEST(test_a_control_of_a_script_waits_for_its_turn);
+    RUN_TEST(test_nothing_acts_in_raw_mode);
     RUN_TEST(test_format_number);
     RUN_TEST(test_the_program_survives_a_restart);
     RUN_TEST(test_power_lost_while_writing_leaves_the_old_program);
