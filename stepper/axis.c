@@ -5,8 +5,6 @@
 
 #define SECONDS_PER_MINUTE 60.0
 #define PINS_PER_AXIS 3
-// Positions stay well inside int32, so that differences of two positions fit as well.
-#define STEPS_LIMIT 1.0e9
 
 axis_t axes[AXIS_COUNT];
 
@@ -108,7 +106,7 @@ void axis_release_all(void) {
 
 bool axis_to_steps(axis_id_t axis, double position, int32_t *steps) {
     double exact = round(position * axes[axis].config.steps_per_unit);
-    if (!(fabs(exact) <= STEPS_LIMIT)) {
+    if (!(fabs(exact) <= AXIS_STEPS_MAX)) {
         return false;
     }
     *steps = (int32_t)exact;

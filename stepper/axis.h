@@ -4,6 +4,9 @@
 
 #include "stepper/stepper.h"
 
+// Positions stay well inside int32, so that differences of two positions fit as well.
+#define AXIS_STEPS_MAX 1.0e9
+
 typedef struct {
     bool configured;
     bool limited; // soft limits are set

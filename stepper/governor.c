@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "stepper/jog.h"
 #include "stepper/path.h"
 #include "stepper/planner.h"
 #include "stepper/profile.h"
@@ -27,7 +28,6 @@
 // Computed ahead: more rides out longer delays of this interrupt, less reacts faster.
 #define AHEAD_TICKS 101u
 #define PROGRESS_ONE 18446744073709551616.0f // 2^64
-#define CHANGE_ONE 1073741824.0f             // 2^30, see segment_writer_move()
 
 static struct {
     governor_pins_t pins;
@@ -75,7 +75,8 @@ static void go_on(float ticks, float end_speed) {
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
     float sum = governor.pending_from + governor.speed;
     float change = sum > 0.0f ? (governor.speed - governor.pending_from) / sum : 0.0f;
-    segment_writer_move(target, governor.pending_ticks, (int32_t)(change * CHANGE_ONE), at_rest);
+    segment_writer_move(target, governor.pending_ticks,
+                        (int32_t)(change * (float)SEGMENT_CHANGE_ONE), at_rest);
     governor.pending_ticks = 0.0f;
 }
 
@@ -95,6 +96,14 @@ static void finish_block(void) {
     planner_release();
 }
 
+// The motion ended elsewhere than planned: what comes next starts where the motors stand.
+static void follow_motors(void) {
+    int32_t steps[AXIS_COUNT];
+    segment_writer_end_steps(steps);
+    path_stand(steps);
+    governor.drops = governor.drops + 1;
+}
+
 static void drop_blocks(void) {
     governor.block = NULL;
     governor.speed = 0.0f;
@@ -103,10 +112,7 @@ static void drop_blocks(void) {
     governor.stopping = false;
     planner_release_all();
     segment_writer_settle();
-    int32_t steps[AXIS_COUNT];
-    segment_writer_end_steps(steps);
-    path_stand(steps);
-    governor.drops = governor.drops + 1;
+    follow_motors();
 }
 
 // The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the ticks of
@@ -212,9 +218,16 @@ static bool advance(void) {
         drop_blocks();
         return true;
     }
-    bool wanted = front != NULL || !governor.idle_off;
+    bool wanted = front != NULL || jog_active() || !governor.idle_off;
     if (wanted != governor.drivers_on) {
         switch_drivers(wanted);
+        return true;
+    }
+    if (jog_active()) {
+        jog_advance();
+        if (!jog_active()) {
+            follow_motors();
+        }
         return true;
     }
     if (front == NULL || (governor.holding && governor.speed <= 0.0f)) {
@@ -240,6 +253,16 @@ static bool advance(void) {
     return true;
 }
 
+void governor_fill(uint32_t ticks) {
+    bool more = governor.armed;
+    while (more && segment_writer_ahead_ticks() < ticks && segment_writer_has_room()) {
+        more = advance();
+    }
+    if (ring_used(&segments.ring) > 0) {
+        hal_tick_start();
+    }
+}
+
 void hal_on_governor(void) {
     if (step_isr_tripped()) {
         governor_emergency_stop();
@@ -247,16 +270,7 @@ void hal_on_governor(void) {
         governor.estop_event = true;
         return;
     }
-    if (!governor.armed) {
-        return;
-    }
-    bool more = true;
-    while (more && segment_writer_ahead_ticks() < AHEAD_TICKS && segment_writer_has_room()) {
-        more = advance();
-    }
-    if (ring_used(&segments.ring) > 0) {
-        hal_tick_start();
-    }
+    governor_fill(AHEAD_TICKS);
 }
 
 // ---- For the main loop ---------------------------------------------------------------------------
@@ -265,6 +279,7 @@ void governor_reset(const int32_t steps[AXIS_COUNT]) {
     governor_pins_t pins = governor.pins;
     memset(&governor, 0, sizeof governor);
     governor.pins = pins;
+    jog_drop();
     segment_writer_reset(steps);
     path_stand(steps);
 }
@@ -294,7 +309,11 @@ void governor_set_position(const int32_t steps[AXIS_COUNT]) {
 
 void governor_stop(void) {
     governor.holding = false;
-    governor.stopping = governor_working();
+    if (jog_active()) {
+        jog_stop();
+    } else {
+        governor.stopping = governor_working();
+    }
 }
 
 void governor_emergency_stop(void) {
@@ -302,6 +321,7 @@ void governor_emergency_stop(void) {
     hal_tick_stop(); // before the position is read: no step may come behind it
     governor_position(steps);
     step_isr_abort();
+    jog_drop();
     drop_blocks();
     segment_writer_reset(steps);
     path_stand(steps);
@@ -324,6 +344,9 @@ void governor_position(int32_t steps[AXIS_COUNT]) {
 
 void governor_hold(bool hold) {
     governor.holding = hold;
+    if (hold) {
+        jog_stop();
+    }
 }
 
 bool governor_holding(void) {
@@ -339,7 +362,8 @@ bool governor_stopping(void) {
 }
 
 bool governor_working(void) {
-    return governor.armed && (ring_used(&segments.ring) > 0 || ring_used(&blocks.ring) > 0);
+    return governor.armed &&
+           (ring_used(&segments.ring) > 0 || ring_used(&blocks.ring) > 0 || jog_active());
 }
 
 uint32_t governor_executed(void) {

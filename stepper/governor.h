@@ -36,6 +36,9 @@ void governor_stop(void);
 // Brake to a stop and keep all blocks, or go on. Follow with hal_governor_request().
 void governor_hold(bool hold);
 
+// Computes up to `ticks` ahead, more than usual, before the governor is held off for long. Contexts: also governor.
+void governor_fill(uint32_t ticks);
+
 // Ends all motion within this call and disarms, see stepper_estop(). Contexts: also governor.
 void governor_emergency_stop(void);
 

@@ -3,6 +3,7 @@
 
 #include "stepper/axis.h"
 #include "stepper/governor.h"
+#include "stepper/jog.h"
 #include "stepper/planner.h"
 
 machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
@@ -68,6 +69,9 @@ err_t machine_check_queue(void) {
     }
     if (machine_stopping()) {
         return err_raise(ERR_STEPPER_STOPPING, NULL);
+    }
+    if (jog_active()) {
+        return err_raise(ERR_JOGGING, NULL);
     }
     return ring_free(&blocks.ring) > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
 }

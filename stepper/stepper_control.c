@@ -4,6 +4,11 @@
 #include "stepper/machine.h"
 #include "stepper/planner.h"
 
+// Planning more blocks than this anew holds the governor off for longer than it is ahead; for a full
+// queue it takes less than this.
+#define REPLAN_BLOCKS 100u
+#define REPLAN_TICKS 300u
+
 err_t stepper_run(stepper_idle_t idle) {
     err_t err = machine_check_initialized();
     if (err != ERR_OK) {
@@ -69,6 +74,11 @@ err_t stepper_override(int feed_percent, int rapid_percent) {
             .feed = (float)feed_percent / 100.0f,
             .rapid = (float)rapid_percent / 100.0f,
         };
+        if (ring_used(&blocks.ring) > REPLAN_BLOCKS) {
+            hal_governor_lock();
+            governor_fill(REPLAN_TICKS);
+            hal_governor_unlock();
+        }
         planner_set_override(&override);
     }
     return err;

@@ -2,6 +2,7 @@
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
+#include "stepper/jog.h"
 #include "stepper/machine.h"
 #include "stepper/planner.h"
 #include "stepper/step_isr.h"
@@ -16,6 +17,7 @@ void stepper_status(stepper_status_t *status) {
         .moving = governor_working(),
         .stopping = machine_stopping(),
         .holding = governor_holding(),
+        .jogging = jog_active(),
         .position_known = machine.position_known,
         .spindle_on = spindle != 0 && spindle_high != machine.spindle_invert,
         .idle = machine.idle,

@@ -1,0 +1,75 @@
+// Jogging, as far as it may go. Context: main loop.
+#include <math.h>
+
+#include "stepper/axis.h"
+#include "stepper/geometry.h"
+#include "stepper/governor.h"
+#include "stepper/jog.h"
+#include "stepper/machine.h"
+
+static err_t check(axis_id_t axis) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        err = machine_check_axis(axis);
+    }
+    if (err != ERR_OK) {
+        return err;
+    }
+    if (!governor_armed()) {
+        return err_raise(ERR_NOT_ARMED, NULL);
+    }
+    if (machine_stopping()) {
+        return err_raise(ERR_STEPPER_STOPPING, NULL);
+    }
+    if (!jog_active() && !machine_at_rest()) {
+        return err_raise(ERR_JOG_WHILE_ACTIVE, NULL);
+    }
+    return ERR_OK;
+}
+
+// Where the jog ends: within the soft limits, but an axis that stands outside them is not pulled in.
+static int32_t find_target(axis_id_t axis, double from, double distance) {
+    const axis_t *a = &axes[axis];
+    double target = from + distance;
+    if (a->limited && machine.position_known) {
+        target = distance > 0.0 ? fmin(target, fmax(a->max, from)) : target;
+        target = distance < 0.0 ? fmax(target, fmin(a->min, from)) : target;
+    }
+    double steps = round(target * a->config.steps_per_unit);
+    return (int32_t)fmax(-AXIS_STEPS_MAX, fmin(AXIS_STEPS_MAX, steps));
+}
+
+err_t stepper_jog(axis_id_t axis, double distance, double feed) {
+    err_t err = check(axis);
+    if (err != ERR_OK) {
+        return err;
+    }
+    const geometry_settings_t *settings = &geometry_settings;
+    float jerk = settings->axis_jerk[axis] > 0.0f
+                     ? fminf(settings->jerk, settings->axis_jerk[axis])
+                     : settings->jerk;
+    jog_request_t request = {
+        .axis = axis,
+        .target = find_target(axis, stepper_position(axis), distance),
+        .units = (float)(1.0 / axes[axis].config.steps_per_unit),
+        .speed = feed > 0.0 ? fminf((float)(feed / 60.0), axes[axis].velocity)
+                            : axes[axis].velocity,
+        .acceleration = axes[axis].acceleration,
+        .jerk = settings->scurve ? jerk : 0.0f,
+    };
+    hal_governor_lock();
+    jog_start(&request);
+    hal_governor_request();
+    hal_governor_unlock();
+    return ERR_OK;
+}
+
+err_t stepper_jog_stop(void) {
+    err_t err = machine_check_initialized();
+    if (err == ERR_OK) {
+        hal_governor_lock();
+        jog_stop();
+        hal_governor_unlock();
+    }
+    return err;
+}
