@@ -57,8 +57,18 @@ static void compile_number_token(void) {
     lexer_next();
 }
 
+static bool is_number(const basic_arg_spec_t *spec) {
+    return spec->kind == BASIC_ARG_NUMBER || spec->kind == BASIC_ARG_INTEGER;
+}
+
 static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) {
     const lexer_token_t *token = lexer_now();
+    if (is_number(spec) && choices_find(spec->choices, token->text, token->length) >= 0 &&
+        stands_alone(in_parentheses)) {
+        emit_string(token->text, token->length);
+        lexer_next();
+        return;
+    }
     bool is_name = token->kind == LEXER_NAME;
     bool alone = (is_name || token->kind == LEXER_NUMBER) && stands_alone(in_parentheses);
     if (alone && is_name && token->suffix == 0) {

@@ -30,7 +30,7 @@ void args_evaluate(unsigned row, value_t *values, unsigned count);
 void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values,
                   unsigned count, basic_arg_t *out, size_t *out_count);
 
-// The limits of a number in words: "above 0 to 100000".
+// What a number or a choice may be, in words: "above 0 to 100000", "X, Y, Z, A".
 void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size);
 
 // A limit or default in full digits; the buffer has NUMBER_TEXT_SIZE bytes.

@@ -23,7 +23,7 @@ static const char *shown_value(const value_t *value, char *buffer, size_t size) 
     return buffer;
 }
 
-void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size) {
+static void describe_limits(const basic_arg_spec_t *spec, char *buffer, size_t size) {
     char least[NUMBER_TEXT_SIZE];
     char most[NUMBER_TEXT_SIZE];
     args_format_limit(least, spec->min);
@@ -40,6 +40,18 @@ void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size
     }
 }
 
+void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size) {
+    size_t used = 0;
+    if (spec->kind != BASIC_ARG_CHOICE) {
+        describe_limits(spec, buffer, size);
+        used = strlen(buffer);
+    }
+    if (spec->choices != NULL) {
+        used += (size_t)snprintf(buffer + used, size - used, used > 0 ? ", " : "");
+        choices_list(spec->choices, buffer + used, size - used);
+    }
+}
+
 // Limits are shown in full: 100000000, not 1e+08.
 void args_format_limit(char *buffer, double limit) {
     if (limit > -1e15 && limit < 1e15 && limit == (double)(int64_t)limit) {
@@ -52,11 +64,7 @@ void args_format_limit(char *buffer, double limit) {
 static _Noreturn void fail_range(const basic_arg_spec_t *spec, const value_t *value) {
     char range[80];
     char shown[48];
-    if (spec->kind == BASIC_ARG_CHOICE) {
-        choices_list(spec->choices, range, sizeof range);
-    } else {
-        args_describe_range(spec, range, sizeof range);
-    }
+    args_describe_range(spec, range, sizeof range);
     errors_fail_with(ERR_ARGUMENT, "%s: %s is invalid (valid is %s)", spec->name,
                      shown_value(value, shown, sizeof shown), range);
 }
@@ -65,8 +73,8 @@ static void check_range(const basic_arg_spec_t *spec, double number, const value
     if (spec->min == 0.0 && spec->max == 0.0) {
         return;
     }
-    bool low = spec->flags & BASIC_ARG_ABOVE_MIN ? !(number > spec->min) : number < spec->min;
-    if (low || number > spec->max) {
+    bool low = spec->flags & BASIC_ARG_ABOVE_MIN ? !(number > spec->min) : !(number >= spec->min);
+    if (low || !(number <= spec->max)) {
         fail_range(spec, value);
     }
 }
@@ -151,7 +159,11 @@ static void deliver(const basic_arg_spec_t *spec, const value_t *value, basic_ar
     switch (spec->kind) {
     case BASIC_ARG_NUMBER:
     case BASIC_ARG_INTEGER:
-        deliver_number(spec, value, arg);
+        if (spec->choices != NULL && !value_is_numeric(value)) {
+            deliver_choice(spec, value, arg);
+        } else {
+            deliver_number(spec, value, arg);
+        }
         break;
     case BASIC_ARG_CHOICE:
         deliver_choice(spec, value, arg);

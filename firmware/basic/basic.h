@@ -57,11 +57,14 @@ typedef struct {
     const char *name; // as in the reference, e.g. "steps_per_unit"
     basic_arg_kind_t kind;
     unsigned flags;
-    double min, max;     // NUMBER and INTEGER; both 0: no limits
-    double fallback;     // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
-    const char *unit;    // "mm", "mm/s^2"; NULL: none
-    const char *choices; // CHOICE: words with a bar between, e.g. "X|Y|Z|A"
-    const char *help;    // a short sentence without a full stop
+    double min, max;  // NUMBER and INTEGER; both 0: no limits
+    double fallback;  // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
+    const char *unit; // "mm", "mm/s^2"; NULL: none
+    // Words with a bar between, e.g. "X|Y|Z|A". CHOICE: what there is to choose from. NUMBER and INTEGER:
+    // words, + and - among them, that may stand instead of the number; `text` and `integer` are then as
+    // for a CHOICE, and `text` is empty for a number.
+    const char *choices;
+    const char *help; // a short sentence without a full stop
 } basic_arg_spec_t;
 
 // One argument as delivered to a handler; the array always has a row for each row of the spec (and

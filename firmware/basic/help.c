@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "args.h"
-#include "choices.h"
 #include "console.h"
 #include "errors.h"
 #include "functions.h"
@@ -93,9 +92,8 @@ static const char *kind_text(basic_arg_kind_t kind) {
 static void print_argument(const basic_arg_spec_t *spec) {
     char text[200];
     char range[80];
-    if (spec->kind == BASIC_ARG_CHOICE) {
-        choices_list(spec->choices, range, sizeof range);
-    } else if (spec->kind <= BASIC_ARG_INTEGER && (spec->min != 0.0 || spec->max != 0.0)) {
+    bool limited = spec->kind <= BASIC_ARG_INTEGER && (spec->min != 0.0 || spec->max != 0.0);
+    if (limited || spec->choices != NULL) {
         args_describe_range(spec, range, sizeof range);
     } else {
         snprintf(range, sizeof range, "%s", kind_text(spec->kind));

@@ -33,17 +33,28 @@ static void print_syntax(const basic_arg_spec_t *args, size_t count) {
     printf("%s", repeating ? "] ..." : "");
 }
 
+static void print_choices(const char *choices) {
+    for (const char *p = choices; *p != '\0'; p++) {
+        printf("%s", *p == '|' ? ", " : (char[2]){*p, '\0'});
+    }
+}
+
 static void print_values(const basic_arg_spec_t *arg) {
-    if (arg->choices != NULL) {
-        for (const char *p = arg->choices; *p != '\0'; p++) {
-            printf("%s", *p == '|' ? ", " : (char[2]){*p, '\0'});
-        }
-    } else if (arg->min < arg->max) {
-        printf("%s%.9g to %.9g", has(arg, BASIC_ARG_ABOVE_MIN) ? "above " : "", arg->min, arg->max);
+    if (arg->kind == BASIC_ARG_CHOICE) {
+        print_choices(arg->choices);
+        return;
+    }
+    if (arg->min < arg->max) {
+        printf("%s%.10g to %.10g", has(arg, BASIC_ARG_ABOVE_MIN) ? "above " : "", arg->min,
+               arg->max);
     } else {
         printf("%s", kinds[arg->kind]);
     }
     printf("%s%s", arg->unit != NULL ? " " : "", arg->unit != NULL ? arg->unit : "");
+    if (arg->choices != NULL) {
+        printf(", or ");
+        print_choices(arg->choices);
+    }
 }
 
 static void print_default(const basic_arg_spec_t *arg) {

@@ -51,6 +51,10 @@ static const basic_arg_spec_t group_args[] = {
 };
 static const basic_arg_spec_t chip_args[] = {
     {.name = "chip", .kind = BASIC_ARG_CHOICE, .choices = "2208|2209"}};
+static const basic_arg_spec_t way_args[] = {
+    {.name = "way", .kind = BASIC_ARG_NUMBER, .min = -100, .max = 100, .choices = "+|-|HOME"},
+    {.name = "speed", .kind = BASIC_ARG_NUMBER, .flags = BASIC_ARG_OPTIONAL},
+};
 static const basic_arg_spec_t free_args[] = {{.name = "any", .kind = BASIC_ARG_INTEGER}};
 
 static const basic_command_t commands[] = {
@@ -62,6 +66,7 @@ static const basic_command_t commands[] = {
     {"DRIVE RUN", NULL, 0, remember, NULL},
     {"DRIVE RUN AGAIN", NULL, 0, refuse, NULL},
     {"DRIVE CHIP", chip_args, 1, remember, NULL},
+    {"DRIVE WAY", way_args, 2, remember, NULL},
 };
 
 static err_t position(const basic_arg_t *args, size_t count, basic_value_t *result) {
@@ -199,6 +204,35 @@ static void test_choices(void) {
     reject("DRIVE CHIP 2130", "chip: 2130 is invalid (valid is 2208, 2209)");
 }
 
+static void check_way(const char *line, double number, const char *word, int64_t index) {
+    accept(line);
+    TEST_ASSERT_TRUE(got[0].number == number);
+    TEST_ASSERT_EQUAL_STRING(word, texts[0]);
+    TEST_ASSERT_EQUAL_INT64(index, got[0].integer);
+}
+
+static void test_numbers_or_words(void) {
+    check_way("DRIVE WAY -5", -5, "", 0);
+    check_way("DRIVE WAY +5,7", 5, "", 0);
+    check_way("DRIVE WAY -(2+1)*2", -6, "", 0);
+    check_way("DRIVE WAY +", 0, "+", 0);
+    check_way("DRIVE WAY -", 1, "-", 1);
+    check_way("DRIVE WAY - ' comment", 1, "-", 1);
+    check_way("drive way -, 7", 1, "-", 1);
+    TEST_ASSERT_TRUE(got[1].number == 7);
+    check_way("DRIVE WAY home", 2, "HOME", 2);
+    TEST_ASSERT_EQUAL_STRING("", answer("d$=\"-\":home=7"));
+    check_way("DRIVE WAY d$", 1, "-", 1);
+    check_way("DRIVE WAY home*2", 14, "", 0); // alone it is the word
+    check_way("IF 1 THEN DRIVE WAY - ELSE MOTOR 1", 1, "-", 1);
+    reject("DRIVE WAY 101", "way: 101 is invalid (valid is -100 to 100, +, -, HOME)");
+    reject("DRIVE WAY \"up\"", "way: up is invalid (valid is -100 to 100, +, -, HOME)");
+    reject("DRIVE WAY", "Missing way");
+    reject("DRIVE WAY +,+", "Invalid syntax");
+    reject("DRIVE WAY --", "Invalid syntax");
+    TEST_ASSERT_NOT_NULL(strstr(answer("HELP DRIVE WAY"), "-100 to 100, +, -, HOME"));
+}
+
 static void test_pins(void) {
     accept("DRIVE AXIS X,\"gp12\"");
     TEST_ASSERT_EQUAL_INT64(12, got[1].integer);
@@ -290,6 +324,7 @@ int main(void) {
     RUN_TEST(test_ranges);
     RUN_TEST(test_wrong_kinds);
     RUN_TEST(test_choices);
+    RUN_TEST(test_numbers_or_words);
     RUN_TEST(test_pins);
     RUN_TEST(test_raw);
     RUN_TEST(test_groups);
