@@ -66,6 +66,29 @@ static const basic_arg_spec_t junction_args[] = {
      .help = "how far an arc that replaces the corner would pass from it; more is faster"},
 };
 
+static const basic_arg_spec_t scurve_args[] = {
+    {"on", BASIC_ARG_INTEGER, .min = 0, .max = 1,
+     .help = "1: acceleration changes gradually, 0: at once"},
+};
+
+#define AXIS_JERK_ARG(letter, axis_unit)                                                           \
+    {letter,                                                                                       \
+     BASIC_ARG_NUMBER,                                                                             \
+     OPTIONAL,                                                                                     \
+     .min = STEPPER_JERK_MIN,                                                                      \
+     .max = STEPPER_JERK_MAX,                                                                      \
+     .unit = axis_unit,                                                                            \
+     .help = "the axis's own limit; left out: none"}
+
+static const basic_arg_spec_t jerk_args[] = {
+    {"value", BASIC_ARG_NUMBER, .min = STEPPER_JERK_MIN, .max = STEPPER_JERK_MAX, .unit = "mm/s^3",
+     .help = "limit along the path"},
+    AXIS_JERK_ARG("x", "mm/s^3"),
+    AXIS_JERK_ARG("y", "mm/s^3"),
+    AXIS_JERK_ARG("z", "mm/s^3"),
+    AXIS_JERK_ARG("a", "deg/s^3"),
+};
+
 static const basic_arg_spec_t run_args[] = {
     {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1, .help = "the same as the next"},
     {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1,
@@ -110,6 +133,10 @@ const basic_command_t basic_cmds_commands[] = {
     {"STEPPER LIMITS", ARGS(limits_args), configure_limits, "Sets the soft limits of an axis"},
     {"STEPPER SPINDLE", ARGS(spindle_args), configure_spindle, "Sets the spindle output"},
     {"STEPPER JUNCTION", ARGS(junction_args), configure_junction, "Sets the junction deviation"},
+    {"STEPPER SCURVE", ARGS(scurve_args), configure_scurve,
+     "Chooses S-curves or trapezoids for what is queued from now on"},
+    {"STEPPER JERK", ARGS(jerk_args), configure_jerk,
+     "Sets how fast the acceleration of S-curves may change; for what is queued from now on"},
     {"STEPPER RUN", ARGS(run_args), control_run, "Turns drivers on and executes what is queued"},
     {"STEPPER CLEAR", .run = control_clear, .help = "Empties the queue while nothing moves"},
     {"STEPPER STOP", .run = control_stop,

@@ -1,4 +1,4 @@
-// STEPPER INIT, AXIS, LIMITS, SPINDLE, JUNCTION. Context: main loop.
+// STEPPER INIT, AXIS, LIMITS, SPINDLE, JUNCTION, SCURVE, JERK. Context: main loop.
 #include "basic_cmds/configure.h"
 
 #include "gcode/gcode.h"
@@ -62,4 +62,19 @@ err_t configure_spindle(const basic_arg_t *args, size_t count) {
 err_t configure_junction(const basic_arg_t *args, size_t count) {
     (void)count;
     return stepper_junction(args[0].number);
+}
+
+err_t configure_scurve(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return stepper_scurve(args[0].integer != 0);
+}
+
+// Behind the value for the path there is one for each axis, 0 where it was left out.
+err_t configure_jerk(const basic_arg_t *args, size_t count) {
+    (void)count;
+    double axis_jerk[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        axis_jerk[axis] = args[1 + axis].number;
+    }
+    return stepper_jerk(args[0].number, axis_jerk);
 }

@@ -14,6 +14,10 @@ static const char *on_off(bool on) {
     return on ? "ON" : "OFF";
 }
 
+static const char *unit_of(axis_id_t axis) {
+    return axis == AXIS_A ? "deg" : "mm";
+}
+
 static double work_position(axis_id_t axis) {
     return stepper_position(axis) - gcode_offset(axis);
 }
@@ -24,7 +28,7 @@ static void print_axis(axis_id_t axis) {
         return;
     }
     char name = STEPPER_AXIS_LETTERS[axis];
-    const char *unit = axis == AXIS_A ? "deg" : "mm";
+    const char *unit = unit_of(axis);
     double velocity = fmin(config.max_velocity, stepper_step_rate_limit(axis));
     basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, work_position(axis), unit,
                  stepper_position(axis), unit, (long)stepper_position_steps(axis));
@@ -39,6 +43,35 @@ static void print_axis(axis_id_t axis) {
     }
 }
 
+static void print_motion(const stepper_status_t *status) {
+    const char *motion = status->stopping  ? "STOPPING"
+                         : status->holding ? "HOLD"
+                         : status->jogging ? "JOG"
+                         : status->moving  ? "ACTIVE"
+                                           : "IDLE";
+    basic_printf("Armed: %s, motion: %s, position known: %s\n", yes_no(status->armed), motion,
+                 yes_no(status->position_known));
+}
+
+// Limits go down to thousandths; those that people use read better without.
+static void print_jerk(const char *before, double jerk, const char *unit) {
+    basic_printf("%s%.*f %s/s^3", before, jerk < 1.0 ? 3 : 1, jerk, unit);
+}
+
+static void print_profile(const stepper_status_t *status) {
+    basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status->junction_deviation_mm,
+                 status->arc_tolerance_mm);
+    basic_printf("S-curve: %s", on_off(status->scurve));
+    print_jerk(", Jerk: ", status->jerk, "mm");
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (status->axis_jerk[axis] > 0.0) {
+            const char before[] = {',', ' ', STEPPER_AXIS_LETTERS[axis], ' ', '\0'};
+            print_jerk(before, status->axis_jerk[axis], unit_of(axis));
+        }
+    }
+    basic_printf("\n");
+}
+
 err_t report_status(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
@@ -48,20 +81,14 @@ err_t report_status(const basic_arg_t *args, size_t count) {
         basic_printf("Stepper not initialized\n");
         return ERR_OK;
     }
-    const char *motion = status.stopping  ? "STOPPING"
-                         : status.holding ? "HOLD"
-                         : status.moving  ? "ACTIVE"
-                                          : "IDLE";
-    basic_printf("Armed: %s, motion: %s, position known: %s\n", yes_no(status.armed), motion,
-                 yes_no(status.position_known));
+    print_motion(&status);
     basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
                  (unsigned)(status.blocks - status.blocks_free), (unsigned)status.blocks,
                  (unsigned)status.executed, (unsigned)status.underruns);
     basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
-    basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status.junction_deviation_mm,
-                 status.arc_tolerance_mm);
+    print_profile(&status);
     bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));

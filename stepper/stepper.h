@@ -17,7 +17,9 @@ typedef enum { AXIS_X, AXIS_Y, AXIS_Z, AXIS_A, AXIS_COUNT } axis_id_t;
 #define STEPPER_BLOCKS_DEFAULT 32u
 #define STEPPER_JUNCTION_DEVIATION_MM 0.02 // default
 #define STEPPER_JERK_DEFAULT 10000.0       // mm/s^3
-#define STEPPER_STEP_RATE_MAX_HZ 50000.0   // one step in every second tick
+#define STEPPER_JERK_MIN 0.001             // units/s^3
+#define STEPPER_JERK_MAX 1.0e9
+#define STEPPER_STEP_RATE_MAX_HZ 50000.0 // one step in every second tick
 
 // ---- Configuration -------------------------------------------------------------------------------
 
@@ -63,8 +65,7 @@ err_t stepper_junction(double deviation_mm);
 err_t stepper_scurve(bool on);
 
 // Jerk limits of moves queued from now on: along the path, and of each axis (0: none of its own), in
-// units/s^3. INIT: STEPPER_JERK_DEFAULT, none.
-// 0.001..1e9.
+// units/s^3, STEPPER_JERK_MIN..STEPPER_JERK_MAX. INIT: STEPPER_JERK_DEFAULT, none.
 err_t stepper_jerk(double path, const double axis[AXIS_COUNT]);
 
 // ---- Control -------------------------------------------------------------------------------------
