@@ -96,8 +96,9 @@ static const basic_arg_spec_t run_args[] = {
 };
 
 static const basic_arg_spec_t override_args[] = {
-    {"what", BASIC_ARG_CHOICE, .choices = "FEED|RAPID", .help = "G1 feeds, or G0 moves"},
-    {"percent", BASIC_ARG_INTEGER, .min = STEPPER_OVERRIDE_MIN, .max = STEPPER_OVERRIDE_MAX,
+    {"what", BASIC_ARG_CHOICE, OPTIONAL, .choices = "FEED|RAPID",
+     .help = "G1 feeds, or G0 moves; without any argument it shows both"},
+    {"percent", BASIC_ARG_INTEGER, OPTIONAL, .min = STEPPER_OVERRIDE_MIN, .max = STEPPER_OVERRIDE_MAX,
      .unit = "%", .help = "of the programmed speed; RAPID up to 100"},
 };
 
@@ -142,8 +143,8 @@ const basic_command_t basic_cmds_commands[] = {
     {"STEPPER STOP", .run = control_stop,
      .help = "Brakes to a standstill and empties the queue; the position stays exact"},
     {"STEPPER HOLD", .run = control_hold,
-     .help = "Feed hold: brakes to a standstill and keeps the queue"},
-    {"STEPPER RESUME", .run = control_resume, .help = "Goes on after STEPPER HOLD"},
+     .help = "Feed hold, as Ctrl-F: brakes to a standstill and keeps the queue"},
+    {"STEPPER RESUME", .run = control_resume, .help = "Goes on after a feed hold, as Ctrl-R"},
     {"STEPPER OVERRIDE", ARGS(override_args), control_override,
      "Makes all feeds or all rapid moves slower or faster, at once"},
     {"STEPPER ESTOP", .run = control_estop, .help = "Stops at once, drivers and spindle off"},

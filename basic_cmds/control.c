@@ -56,8 +56,25 @@ err_t control_resume(const basic_arg_t *args, size_t count) {
     return stepper_hold(false);
 }
 
+static err_t show_override(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    if (!status.initialized) {
+        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    }
+    basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
+                 status.rapid_override);
+    return ERR_OK;
+}
+
 err_t control_override(const basic_arg_t *args, size_t count) {
     (void)count;
+    if (!args[0].given && !args[1].given) {
+        return show_override();
+    }
+    if (!args[0].given || !args[1].given) {
+        return err_raise(ERR_ARGUMENTS_MISSING, args[0].given ? "percent" : "what");
+    }
     bool rapid = args[0].integer != 0;
     int percent = (int)args[1].integer;
     if (rapid && percent > STEPPER_OVERRIDE_RAPID_MAX) {
