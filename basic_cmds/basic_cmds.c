@@ -98,8 +98,18 @@ static const basic_arg_spec_t run_args[] = {
 static const basic_arg_spec_t override_args[] = {
     {"what", BASIC_ARG_CHOICE, OPTIONAL, .choices = "FEED|RAPID",
      .help = "G1 feeds, or G0 moves; without any argument it shows both"},
-    {"percent", BASIC_ARG_INTEGER, OPTIONAL, .min = STEPPER_OVERRIDE_MIN, .max = STEPPER_OVERRIDE_MAX,
-     .unit = "%", .help = "of the programmed speed; RAPID up to 100"},
+    {"percent", BASIC_ARG_INTEGER, OPTIONAL, .min = STEPPER_OVERRIDE_MIN,
+     .max = STEPPER_OVERRIDE_MAX, .unit = "%", .help = "of the programmed speed; RAPID up to 100"},
+};
+
+static const basic_arg_spec_t jog_args[JOG_ARGS] = {
+    [JOG_AXIS] = AXIS_ARG,
+    [JOG_DISTANCE] = {"distance", BASIC_ARG_NUMBER, .min = -1e9, .max = 1e9, .unit = "mm or deg",
+                      .choices = JOG_CHOICES,
+                      .help =
+                          "from where it stands; + and - go on until STEPPER JOG STOP or a limit"},
+    [JOG_FEED] = {"feed", BASIC_ARG_NUMBER, OPTIONAL, .min = 0.001, .max = 1e9,
+                  .unit = "mm/min or deg/min", .help = "left out: as fast as the axis may"},
 };
 
 static const basic_arg_spec_t position_args[] = {
@@ -147,6 +157,9 @@ const basic_command_t basic_cmds_commands[] = {
     {"STEPPER RESUME", .run = control_resume, .help = "Goes on after a feed hold, as Ctrl-R"},
     {"STEPPER OVERRIDE", ARGS(override_args), control_override,
      "Makes all feeds or all rapid moves slower or faster, at once"},
+    {"STEPPER JOG STOP", .run = control_jog_stop, .help = "Brakes a jog to a standstill"},
+    {"STEPPER JOG", ARGS(jog_args), control_jog,
+     "Moves an axis by hand; a further JOG on the way changes the target without a stop"},
     {"STEPPER ESTOP", .run = control_estop, .help = "Stops at once, drivers and spindle off"},
     {"STEPPER CLOSE", .run = control_close, .help = "Stops motion and gives all pins back"},
     {"STEPPER POSITION HOME", .run = control_position_home,

@@ -1,7 +1,8 @@
-// STEPPER RUN, CLEAR, STOP, ESTOP, CLOSE, POSITION, GC, GS, GCODE. Context: main loop.
+// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION, GC, GS, GCODE. Context: main loop.
 #include "basic_cmds/control.h"
 
 #include <ctype.h>
+#include <math.h>
 
 #include "gcode/gcode.h"
 #include "stepper/stepper.h"
@@ -85,6 +86,22 @@ err_t control_override(const basic_arg_t *args, size_t count) {
     stepper_status(&status);
     return stepper_override(rapid ? status.feed_override : percent,
                             rapid ? percent : status.rapid_override);
+}
+
+err_t control_jog(const basic_arg_t *args, size_t count) {
+    (void)count;
+    const basic_arg_t *wanted = &args[JOG_DISTANCE];
+    double distance = wanted->number;
+    if (wanted->text.length > 0) {
+        distance = wanted->integer == JOG_DOWN ? -(double)INFINITY : (double)INFINITY;
+    }
+    return stepper_jog((axis_id_t)args[JOG_AXIS].integer, distance, args[JOG_FEED].number);
+}
+
+err_t control_jog_stop(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    return stepper_jog_stop();
 }
 
 err_t control_estop(const basic_arg_t *args, size_t count) {

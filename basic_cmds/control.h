@@ -10,11 +10,20 @@ err_t control_stop(const basic_arg_t *args, size_t count);
 err_t control_hold(const basic_arg_t *args, size_t count);
 err_t control_resume(const basic_arg_t *args, size_t count);
 err_t control_override(const basic_arg_t *args, size_t count);
+err_t control_jog(const basic_arg_t *args, size_t count);
+err_t control_jog_stop(const basic_arg_t *args, size_t count);
 err_t control_estop(const basic_arg_t *args, size_t count);
 err_t control_close(const basic_arg_t *args, size_t count);
 err_t control_position_home(const basic_arg_t *args, size_t count);
 err_t control_position(const basic_arg_t *args, size_t count);
 err_t control_gcode_text(const basic_arg_t *args, size_t count);
 err_t control_gcode_words(const basic_arg_t *args, size_t count);
+
+// Where each argument stands in the row's spec.
+enum { JOG_AXIS, JOG_DISTANCE, JOG_FEED, JOG_ARGS };
+
+// Instead of a distance, in the order of these indexes.
+#define JOG_CHOICES "+|-"
+enum { JOG_UP, JOG_DOWN };
 
 #endif
