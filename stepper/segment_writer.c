@@ -13,17 +13,17 @@
 //        |.-+-'             way   = mean * n, exactly
 //        +-+-+-+-+-+-+-> ticks
 //
-// Targets are where the path is at times between two ticks. The segment ends at the last tick before, with
-// the rate of the path, so what is left of the way is also left of the time.
+// A target is where the path is at a time that may lie between two ticks. The segment ends at the last tick
+// before, with the rate of the path, and the rest of the way has the rest of the time.
 #include "stepper/segment_writer.h"
-
-#include <string.h>
 
 #define HALF_STEP (STEP_ONE / 2)
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis round.
 #define NO_DISTANCE ((int64_t)1 << 20)
 #define TICK_ONE ((int32_t)1 << 16) // times in 2^-16 ticks
 #define ROOM 4                      // segments: one call writes up to that many
+// What is rare stays out of the quick way, which has too few registers on a Cortex-M0+ as it is.
+#define SEPARATE __attribute__((noinline))
 
 // How a segment goes its way.
 typedef struct {
@@ -140,6 +140,7 @@ static inline uint32_t phase_at(int64_t place, bool down) {
     return down ? ~phase : phase;
 }
 
+// The rate with which `way` (> 0) is done in the time of the pace; too fast ones are limited.
 static inline uint32_t mean_rate(int64_t way, const pace_t *pace) {
     uint32_t steps = (uint32_t)(way >> 32);
     uint32_t low = (uint32_t)way & 0xFFFFu;
@@ -154,7 +155,7 @@ static inline uint32_t mean_rate(int64_t way, const pace_t *pace) {
 }
 
 // Makes the rate rise or fall evenly. Returns its mean over the segment, given that over the way.
-static uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
+SEPARATE static uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
     uint32_t steps = pace->ticks - 1;
     uint32_t half = multiply_high(mean, pace->slope);
     if (pace->late != 0) {
@@ -248,7 +249,7 @@ typedef struct {
     int32_t change; // of the path's speed on the way
 } way_t;
 
-static void set_pace(int32_t due, int32_t change) {
+SEPARATE static void set_pace(int32_t due, int32_t change) {
     pace_t *pace = &writer.pace;
     uint32_t share = UINT32_MAX;
     pace->due = due;
@@ -267,7 +268,7 @@ static void set_pace(int32_t due, int32_t change) {
     pace->slowing = change < 0;
 }
 
-static uint32_t go(const way_t *way) {
+static inline uint32_t go(const way_t *way) {
     if (way->due != writer.pace.due || way->change != writer.pace.change) {
         set_pace(way->due, way->change);
     }
@@ -324,7 +325,7 @@ static void switch_directions(uint32_t turning) {
 // Lets axes turn round that stand in the open slot. The direction pin changes at least a tick behind the
 // last pulse's end and a tick ahead of the next pulse: an axis that has just made a step, or is about to,
 // stands for a tick. Near standstill, where axes turn as a rule, that is not the case.
-static void turn(way_t *way, uint32_t turning) {
+SEPARATE static void turn(way_t *way, uint32_t turning) {
     if (just_stepped(turning) != 0) {
         go_one_tick(way, turning);
     } else {
@@ -342,7 +343,7 @@ static void turn(way_t *way, uint32_t turning) {
 
 // The motion is to end with what is in the open slot. Where the end of the way lies between two ticks, or
 // the limit of the rate has left something over, the rest follows as fast as possible.
-static void arrive(const int64_t target[AXIS_COUNT]) {
+SEPARATE static void arrive(const int64_t target[AXIS_COUNT]) {
     int64_t farthest = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         int64_t left = target[axis] - writer.axes[axis].place;

@@ -12,9 +12,10 @@ void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 // direction pin of axis n is low when it counts up.
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
 
-// Goes to `target` (2^-32 steps) within `ticks`. Rounding of the ticks is made up for in the next
-// call. `change`: how the speed along the path changes on the way, (end - start) / (end + start) in
-// SEGMENT_CHANGE_ONE. `at_rest`: the motion ends there.
+// Goes to `target` (2^-32 steps) within `ticks` (less than 2^14). The segment ends at the last whole tick
+// in that time; what is left of time and way is the next call's, all of it if it is less than a tick.
+// `change`: how the speed along the path changes on the way, (end - start) / (end + start) in
+// SEGMENT_CHANGE_ONE, at most 1. `at_rest`: the motion ends there, and now.
 #define SEGMENT_CHANGE_ONE ((int32_t)1 << 30)
 void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
                          bool at_rest);
