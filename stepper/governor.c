@@ -27,7 +27,8 @@
 #define ENABLE_TICKS 5u
 // Computed ahead: more rides out longer delays of this interrupt, less reacts faster.
 #define AHEAD_TICKS 101u
-#define PROGRESS_ONE 18446744073709551616.0f // 2^64
+#define PROGRESS_ONE 18446744073709551616.0f  // 2^64
+#define PROGRESS_MOST 18446742974197923840.0f // the float below
 
 static struct {
     governor_pins_t pins;
@@ -43,6 +44,9 @@ static struct {
     const block_t *block; // being executed, NULL: none
     uint32_t dwell_left;  // ticks, of a dwell
     uint64_t progress;    // of a move, in 2^-64 of its length
+    float per_length;     // 2^64 / length of a move
+    float top_speed;      // allowed in it, units/s
+    uint32_t overrides;   // for which that was found
     float speed;          // along the path now, units/s
     float acceleration;   // of the piece that led here, units/s^2
     float pending_ticks;  // computed way that has no segment yet
@@ -74,7 +78,8 @@ static void go_on(float ticks, float end_speed) {
 
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
     float sum = governor.pending_from + governor.speed;
-    float change = sum > 0.0f ? (governor.speed - governor.pending_from) / sum : 0.0f;
+    float rise = governor.speed - governor.pending_from;
+    float change = rise != 0.0f ? rise / sum : 0.0f;
     segment_writer_move(target, governor.pending_ticks,
                         (int32_t)(change * (float)SEGMENT_CHANGE_ONE), at_rest);
     governor.pending_ticks = 0.0f;
@@ -86,6 +91,9 @@ static void start_block(const block_t *block) {
     governor.dwell_left = block->kind == BLOCK_DWELL ? block->dwell_ticks : 0;
     planner_start();
     if (block_is_move(block)) {
+        governor.per_length = PROGRESS_ONE / block->move.length;
+        governor.top_speed = planner_top_speed(block);
+        governor.overrides = blocks.overrides;
         path_begin(block);
     }
 }
@@ -141,14 +149,20 @@ static float pass_end(float left, float v1, float dt) {
 
 static float next_speed(float left, float *ticks) {
     bool braking = governor.stopping || governor.holding;
-    const profile_t now = {
+    if (governor.overrides != blocks.overrides) {
+        governor.overrides = blocks.overrides;
+        governor.top_speed = planner_top_speed(governor.block);
+    }
+    profile_t now = {
         .block = governor.block,
         .left = left,
-        .top = braking ? 0.0f : planner_top_speed(governor.block),
+        .top = braking ? 0.0f : governor.top_speed,
         .speed = governor.speed,
         .acceleration = governor.acceleration,
     };
-    return profile_next_speed(&now, ticks);
+    float v1 = profile_next_speed(&now, ticks);
+    governor.acceleration = now.acceleration;
+    return v1;
 }
 
 // One slice of a move, through as many blocks as it touches and the segment ring has room for. The
@@ -163,8 +177,9 @@ static void advance_move(void) {
                           : next_speed(left, &piece);
         float dt = piece * TICK_S;
         float way = 0.5f * (governor.speed + v1) * dt;
-        float advance = way * (PROGRESS_ONE / governor.block->move.length);
-        if (way >= left || advance >= (float)~governor.progress) {
+        float advance = lesser(way * governor.per_length, PROGRESS_MOST);
+        uint64_t progress = governor.progress + (uint64_t)advance;
+        if (way >= left || progress < governor.progress) {
             bool jerk_limited = governor.block->move.jerk > 0.0f;
             ticks -= pass_end(left, v1, dt);
             if (governor.block == NULL) {
@@ -173,8 +188,7 @@ static void advance_move(void) {
             chosen = jerk_limited && governor.block->move.jerk > 0.0f;
             continue;
         }
-        governor.progress += (uint64_t)advance;
-        governor.acceleration = (v1 - governor.speed) / dt;
+        governor.progress = progress;
         go_on(piece, v1);
         int64_t target[AXIS_COUNT];
         path_at(governor.progress, target);

@@ -58,6 +58,7 @@ void planner_set_scale(void) {
         }
     }
     blocks.v2_unit = fastest2 / (float)V2_MAX;
+    blocks.v2_per_unit = (float)V2_MAX / fastest2;
 }
 
 void planner_set_position(const int32_t steps[AXIS_COUNT]) {
@@ -74,7 +75,7 @@ void planner_target(double target[AXIS_COUNT]) {
 }
 
 static v2_t v2_from(float speed2) {
-    float units = speed2 / blocks.v2_unit;
+    float units = speed2 * blocks.v2_per_unit;
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
@@ -284,6 +285,7 @@ void planner_set_override(const planner_override_t *override) {
     }
     hal_governor_lock();
     blocks.override = *override;
+    blocks.overrides++;
     clear_binding();
     slot = blocks.ring.take_slot;
     for (uint32_t waiting = ring_used(&blocks.ring); waiting > 0; waiting--) {

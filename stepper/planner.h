@@ -80,7 +80,9 @@ typedef struct {
     span_t end_span;
     bool front_started; // the governor has begun with the front block
     float v2_unit;      // (units/s)^2 of one v2_t step
+    float v2_per_unit;  // 1 / v2_unit
     planner_override_t override;
+    uint32_t overrides; // changes of it
 } planner_ring_t;
 
 extern planner_ring_t blocks;

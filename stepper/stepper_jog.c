@@ -45,15 +45,14 @@ err_t stepper_jog(axis_id_t axis, double distance, double feed) {
         return err;
     }
     const geometry_settings_t *settings = &geometry_settings;
-    float jerk = settings->axis_jerk[axis] > 0.0f
-                     ? fminf(settings->jerk, settings->axis_jerk[axis])
-                     : settings->jerk;
+    float jerk = settings->axis_jerk[axis] > 0.0f ? fminf(settings->jerk, settings->axis_jerk[axis])
+                                                  : settings->jerk;
     jog_request_t request = {
         .axis = axis,
         .target = find_target(axis, stepper_position(axis), distance),
         .units = (float)(1.0 / axes[axis].config.steps_per_unit),
-        .speed = feed > 0.0 ? fminf((float)(feed / 60.0), axes[axis].velocity)
-                            : axes[axis].velocity,
+        .speed =
+            feed > 0.0 ? fminf((float)(feed / 60.0), axes[axis].velocity) : axes[axis].velocity,
         .acceleration = axes[axis].acceleration,
         .jerk = settings->scurve ? jerk : 0.0f,
     };

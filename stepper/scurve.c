@@ -1,0 +1,272 @@
+// The speed profile with a limit of the jerk. The acceleration of each slice is the highest within the
+// jerk for which every binding cap ahead can still be met: the way that braking to it takes, with jerk and
+// acceleration limited and none left at the cap, must not be longer than the way there.
+//
+//   speed |         .-------.                  J  build up  : a rises to A
+//         |       .'         '.                0  keep      : a = A
+//         |     .'             '.             -J  take back : a falls to 0 at the top speed,
+//         |__.-'                 '-.___ cap       and the same downwards to the cap
+//
+// That looks across blocks, so a thousand short ones run like one long one. Braking as hard as the
+// limits allow is always among the choices and meets all caps if the choices before did.
+//
+// Slices of constant acceleration follow a straight line of jerk if they have its value at their middle; so
+// it is the middle of a slice from which the acceleration is thought to change further.
+// Context: governor.
+#include "stepper/scurve.h"
+
+#include <math.h>
+
+#include "stepper/ramp.h"
+
+#define TICK_S (1.0f / (float)HAL_TICK_HZ)
+#define HALF_SLICE_S 0.0005f // at most
+
+// Bounds whose speeds are alike count as one, at the place of the nearest and with the speed of the
+// slowest: the ratio of their squares, coarser the more have been looked at, since the far ones matter less.
+#define ALIKE_CHANGES 4u
+static const float alike[] = {0.94f, 0.8f, 0.5f};
+#define TESTS_MAX (ALIKE_CHANGES * 3u)
+#define BOUNDS_MAX 640u
+
+// Braking is planned with a little less than the limits, so that what rounding and slices do to it can be
+// made up for on the way.
+#define PLANNED_ACCELERATION 0.99f
+#define PLANNED_JERK 0.97f
+
+#define CREEP 0.4f // units/s
+#define HAIR 1.01f
+
+// What follows from the limits of a block; the next one often has the same.
+static struct {
+    float acceleration, jerk, top;
+    ramp_t ramp;
+    int32_t within; // how far ahead of the end of the front block a bound can matter at `top`, as `way`
+} limits;
+
+// The choice for one slice while it is made.
+typedef struct {
+    const profile_t *now;
+    float half_s;      // half of the slice
+    ramp_t ramp;       // limits from here to the bound being looked at
+    span_t span;       // the same
+    int32_t within;    // see above
+    float least;       // acceleration that the jerk limit allows at least
+    float chosen;      // acceleration
+    float crest;       // the highest speed that follows if it is taken back from the middle on
+    bool out_of_reach; // a bound cannot be met within the jerk limit
+    unsigned tests;
+} choice_t;
+
+static float lesser(float a, float b) {
+    return a < b ? a : b;
+}
+
+static float greater(float a, float b) {
+    return a > b ? a : b;
+}
+
+// How far ahead a bound can matter at this speed.
+static int32_t reach(const ramp_t *ramp, float speed) {
+    float distance = ramp_distance_bound(ramp, speed, 0.0f) +
+                     speed * (HALF_SLICE_S + ramp->build_up_s);
+    float way = distance * WAY_ONE;
+    return way < 1e9f ? (int32_t)way : 1000000000;
+}
+
+static void take_limits(choice_t *choice) {
+    const profile_t *now = choice->now;
+    const block_t *block = now->block;
+    choice->span = planner_span_of(block);
+    if (block->move.acceleration != limits.acceleration || block->move.jerk != limits.jerk) {
+        limits.acceleration = block->move.acceleration;
+        limits.jerk = block->move.jerk;
+        ramp_set(&limits.ramp, PLANNED_ACCELERATION * limits.acceleration,
+                 PLANNED_JERK * limits.jerk);
+        limits.top = -1.0f;
+    }
+    choice->ramp = limits.ramp;
+    if (now->speed > now->top) {
+        choice->within = reach(&limits.ramp, now->speed + limits.ramp.full_change);
+        return;
+    }
+    if (now->top != limits.top) {
+        limits.top = now->top;
+        limits.within = reach(&limits.ramp, now->top);
+    }
+    choice->within = limits.within;
+}
+
+static float crest(const choice_t *choice, float acceleration) {
+    float v = choice->now->speed;
+    return acceleration > 0.0f
+               ? v + acceleration * (choice->half_s + 0.5f * acceleration * choice->ramp.per_jerk)
+               : v;
+}
+
+// The highest acceleration that jerk, acceleration and top speed allow.
+static void choose_freely(choice_t *choice) {
+    const profile_t *now = choice->now;
+    float step = limits.jerk * (2.0f * choice->half_s);
+    float full = limits.acceleration;
+    float most = now->acceleration + step;
+    float least = now->acceleration - step;
+    if (most > full) {
+        most = greater(full, least);
+    } else if (least < -full) {
+        least = lesser(-full, most);
+    }
+    choice->least = least;
+    choice->chosen = most;
+    choice->crest = crest(choice, most);
+    if (choice->crest > now->top) {
+        float towards = now->speed == now->top
+                            ? 0.0f
+                            : ramp_towards(&choice->ramp, now->speed, now->top, choice->half_s);
+        choice->chosen = greater(least, lesser(most, towards));
+        choice->crest = crest(choice, choice->chosen);
+    }
+}
+
+// ---- Bounds --------------------------------------------------------------------------------------
+
+// By how much braking ends before `distance` if this slice has `acceleration`.
+static float margin(const choice_t *choice, float acceleration, float distance, float cap) {
+    float v = choice->now->speed;
+    float middle = greater(v + acceleration * choice->half_s, 0.0f);
+    float braking = ramp_braking_distance(&choice->ramp, middle, acceleration, cap);
+    if (braking <= 0.0f) {
+        return distance; // the bound may well be passed in this slice
+    }
+    return distance - 0.5f * (v + middle) * choice->half_s - braking;
+}
+
+// Lowers the acceleration as far as the bound needs it. The margin is a concave function of the
+// acceleration, so the chord is on the safe side.
+static void meet(choice_t *choice, float distance, float cap) {
+    float build_up_s = choice->chosen > 0.0f ? choice->chosen * choice->ramp.per_jerk : 0.0f;
+    choice->tests++;
+    if (choice->crest <= cap ||
+        ramp_distance_bound(&choice->ramp, choice->crest, cap) +
+                choice->crest * (choice->half_s + build_up_s) <=
+            distance) {
+        return;
+    }
+    float high = margin(choice, choice->chosen, distance, cap);
+    if (high >= 0.0f || choice->chosen <= choice->least) {
+        choice->out_of_reach |= high < 0.0f;
+        return;
+    }
+    float low = margin(choice, choice->least, distance, cap);
+    if (low <= 0.0f) {
+        choice->out_of_reach |= low < 0.0f;
+        choice->chosen = choice->least;
+    } else {
+        choice->chosen = choice->least + (choice->chosen - choice->least) * (low / (low - high));
+    }
+    choice->crest = crest(choice, choice->chosen);
+}
+
+static void take_span(choice_t *choice, span_t span) {
+    if (span.acceleration >= choice->span.acceleration && span.jerk >= choice->span.jerk) {
+        return;
+    }
+    choice->span = span_least(choice->span, span);
+    ramp_set(&choice->ramp,
+             lesser(choice->ramp.acceleration,
+                    PLANNED_ACCELERATION * span_acceleration(choice->span)),
+             lesser(choice->ramp.jerk, PLANNED_JERK * span_jerk(choice->span)));
+    choice->within = reach(&choice->ramp, choice->crest);
+}
+
+// Limits that are lower behind the first bound must be kept when it is passed, `way` from the end of
+// the front block.
+static void keep_next_span(choice_t *choice, span_t span, int32_t way) {
+    if (span.acceleration >= choice->span.acceleration) {
+        return;
+    }
+    float distance = (float)way * (1.0f / WAY_ONE) + choice->now->left;
+    float excess = choice->chosen - span_acceleration(span);
+    if (excess > 0.0f && excess * choice->ramp.per_jerk * choice->now->speed >= distance) {
+        choice->chosen = greater(choice->least, span_acceleration(span));
+        choice->crest = crest(choice, choice->chosen);
+    }
+}
+
+static v2_t v2_above(float speed) {
+    float units = speed * speed * blocks.v2_per_unit + 1.0f;
+    return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
+}
+
+// Bounds that do not matter are passed over with integers alone; there may be hundreds.
+static void meet_bounds(choice_t *choice) {
+    const block_t *second = planner_second();
+    uint32_t here = second != NULL ? second->way : blocks.end_way;
+    v2_t slower = v2_above(choice->crest);
+    float group_distance = 0.0f;
+    float group_speed2 = -1.0f; // none
+    float alike_speed2 = 0.0f;
+    int32_t way = 0;
+    planner_bound_t bound;
+    for (uint32_t n = 0; planner_bound(n, &bound); n++) {
+        if (n == 1) {
+            keep_next_span(choice, bound.span, way);
+        }
+        way = (int32_t)(bound.way - here);
+        take_span(choice, bound.span);
+        if (way > choice->within) {
+            break;
+        }
+        v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
+        if (cap >= slower) {
+            continue;
+        }
+        slower = cap;
+        float speed2 = (float)cap * blocks.v2_unit;
+        if (group_speed2 < 0.0f || speed2 < alike_speed2) {
+            if (group_speed2 >= 0.0f) {
+                meet(choice, group_distance, sqrtf(group_speed2));
+            }
+            if (choice->tests >= TESTS_MAX) {
+                return;
+            }
+            group_distance = (float)way * (1.0f / WAY_ONE) + choice->now->left;
+            alike_speed2 = speed2 * alike[choice->tests / ALIKE_CHANGES];
+        }
+        group_speed2 = speed2;
+        if (cap == 0) {
+            break; // whatever comes behind it begins at rest
+        }
+    }
+    if (group_speed2 >= 0.0f) {
+        meet(choice, group_distance, sqrtf(group_speed2));
+    }
+}
+
+float scurve_next_speed(profile_t *now, float ticks) {
+    float dt = ticks * TICK_S;
+    choice_t choice = {.now = now, .half_s = 0.5f * dt};
+    take_limits(&choice);
+    choose_freely(&choice);
+    meet_bounds(&choice);
+
+    now->acceleration = choice.chosen;
+    float v1 = now->speed + choice.chosen * dt;
+    if (choice.out_of_reach) {
+        // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk last.
+        float most = HAIR * profile_braking_speed(now, planner_exit_speed2(), dt);
+        if (v1 > most) {
+            v1 = most;
+            now->acceleration = (v1 - now->speed) / dt;
+        }
+    }
+    if (v1 < CREEP && choice.chosen < 0.0f) {
+        // What is left in the end may be a hair longer than planned: do not get slower before.
+        float creep = now->top > 0.0f ? lesser(now->speed, CREEP) : 0.0f;
+        if (v1 < creep || v1 < limits.jerk * dt * dt) {
+            now->acceleration = (creep - now->speed) / dt;
+            return creep;
+        }
+    }
+    return v1;
+}
