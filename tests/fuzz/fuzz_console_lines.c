@@ -60,6 +60,8 @@ static const char *const statements[] = {
     "RESTORE %",
     "PAUSE %",
     "PAUSE 1",
+    "STEPPER JOG X,+,#:PAUSE 100:STEPPER JOG X,-",
+    "STEPPER HOLD:PAUSE 20:STEPPER RESUME",
     "TIMER=%",
     "RANDOMIZE %",
     "OPTION BASE %",
@@ -269,7 +271,11 @@ static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
     switch (spec->kind) {
     case BASIC_ARG_NUMBER:
     case BASIC_ARG_INTEGER:
-        add_in_range(text, spec);
+        if (spec->choices != NULL && fuzz_random_percent(40)) {
+            add_choice(text, spec->choices);
+        } else {
+            add_in_range(text, spec);
+        }
         break;
     case BASIC_ARG_TEXT:
         fuzz_text_add(text, "\"");
@@ -345,7 +351,8 @@ void fuzz_console_keys(fuzz_text_t *text) {
     static const char *const keys[] = {
         "\x1b[A",  "\x1b[B",  "\x1b[C", "\x1b[D",   "\x1b[H", "\x1b[F", "\x1b[1~", "\x1b[2~",
         "\x1b[3~", "\x1b[4~", "\x1bOP", "\x1b[11~", "\x1b[",  "\x1b",   "\b",      "\x7f",
-        "\t",      "\x15",    "\x03",   "\x1a",     "\r",     "\n",     "\r\n",    "\x1b[999;999R"};
+        "\t",      "\x15",    "\x03",   "\x1a",     "\r",     "\n",     "\r\n",    "\x1b[999;999R",
+        "\x06",    "\x06",    "\x12"};
     for (unsigned count = fuzz_random_below(60); count > 0; count--) {
         if (fuzz_random_percent(30)) {
             fuzz_text_add(text, "%s", FUZZ_RANDOM_PICK(keys));

@@ -61,7 +61,7 @@ void fuzz_machine_look(fuzz_machine_t *now) {
         .initialized = status.initialized,
         .armed = status.armed,
         .position_known = status.position_known,
-        .stopping = status.stopping,
+        .stopping = status.stopping || status.jogging,
         .queued = status.executed + status.blocks - status.blocks_free,
     };
     stepper_target(now->target);
@@ -75,7 +75,7 @@ void fuzz_machine_check_unchanged(const fuzz_machine_t *before) {
     fuzz_machine_t now;
     fuzz_machine_look(&now);
     if (before->stopping) {
-        return; // the target follows the motors at the end of a stop, whatever is typed meanwhile
+        return; // the target follows the motors at the end of a stop or a jog, whatever is typed
     }
     FUZZ_SESSION_CHECK(now.initialized == before->initialized,
                        "a refused line initialised or closed");
