@@ -15,7 +15,9 @@
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
 #define PAUSE_MAX_MS 1e15
-#define LIST_PAGE_LINES 23
+#define DISPLAY_MAX 255
+#define DISPLAY_ROWS_MIN 2
+#define DISPLAY_COLUMNS_MIN 20
 
 // Leaves the loop and says what the prompt is to do.
 static void stop_with(vm_request_t request) {
@@ -106,6 +108,22 @@ ACTION_BODY(option) {
     }
 }
 
+static unsigned display_size(const char *name, const value_t *value, unsigned least) {
+    int64_t size = value_to_integer(value);
+    if (size < least || size > DISPLAY_MAX) {
+        errors_fail_with(ERR_ARGUMENT, "%s: %ld is invalid (valid is %u to %u)", name, (long)size,
+                         least, (unsigned)DISPLAY_MAX);
+    }
+    return (unsigned)size;
+}
+
+ACTION_BODY(option_display) {
+    unsigned rows = display_size("lines", &arguments[0], DISPLAY_ROWS_MIN);
+    unsigned columns =
+        count < 2 ? console_columns() : display_size("columns", &arguments[1], DISPLAY_COLUMNS_MIN);
+    console_set_size(rows, columns);
+}
+
 ACTION_BODY(on_error) {
     (void)count;
     int64_t statements = value_to_integer(&arguments[1]);
@@ -167,7 +185,7 @@ ACTION_BODY(list) {
         console_write(text, (size_t)(stop - text));
         console_new_line();
         text = stop + 1;
-        if (!all && line % LIST_PAGE_LINES == 0 && text < end && !page_turned()) {
+        if (!all && line % (console_rows() - 1) == 0 && text < end && !page_turned()) {
             return;
         }
     }

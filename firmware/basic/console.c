@@ -21,7 +21,8 @@ static struct {
     uint8_t output[OUTPUT_SIZE];
     unsigned output_length;
     unsigned column;
-    bool in_escape; // a VT100 sequence is being written; it does not move the column
+    unsigned rows, columns; // of the screen
+    bool in_escape;         // a VT100 sequence is being written; it does not move the column
     bool running;
     bool flushing;
     bool polling;
@@ -38,6 +39,7 @@ void console_start(void (*background)(void), console_control_t on_control) {
     memset(&console, 0, sizeof console);
     console.background = background;
     console.on_control = on_control;
+    console_set_size(24, 80);
 }
 
 void console_set_raw(bool raw) {
@@ -242,6 +244,19 @@ void console_fresh_line(void) {
     if (console.column != 0) {
         console_new_line();
     }
+}
+
+void console_set_size(unsigned rows, unsigned columns) {
+    console.rows = rows;
+    console.columns = columns;
+}
+
+unsigned console_rows(void) {
+    return console.rows;
+}
+
+unsigned console_columns(void) {
+    return console.columns;
 }
 
 unsigned console_column(void) {

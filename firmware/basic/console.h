@@ -54,6 +54,11 @@ void console_print(const char *text);
 void console_new_line(void);
 void console_fresh_line(void);
 
+// The size of the terminal's screen, 24 rows of 80 columns unless something else is said.
+void console_set_size(unsigned rows, unsigned columns);
+unsigned console_rows(void);
+unsigned console_columns(void);
+
 // Column of the next character, from 0.
 unsigned console_column(void);
 

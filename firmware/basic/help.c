@@ -12,8 +12,6 @@
 #include "number_text.h"
 #include "statements.h"
 
-#define LINE_WIDTH 78u
-
 static const basic_config_t *config;
 
 void help_start(const basic_config_t *new_config) {
@@ -27,7 +25,7 @@ static void print_line(const char *text) {
 
 // Names side by side, wrapped.
 static void print_word(const char *word) {
-    if (console_column() + strlen(word) + 2 > LINE_WIDTH) {
+    if (console_column() + strlen(word) + 2 > console_columns() - 2) {
         console_new_line();
     }
     console_print(console_column() == 0 ? "  " : ", ");

@@ -9,7 +9,6 @@
 #include "hal/hal.h"
 #include "history.h"
 
-#define SCREEN_WIDTH 80u
 #define ESCAPE_WAIT_US 50000u // an Escape without a sequence behind it is a key of its own
 
 enum {
@@ -66,13 +65,13 @@ static size_t cell_of(size_t place) {
 }
 
 static size_t row_of_cursor(size_t place) {
-    return cell_of(place) / SCREEN_WIDTH - (editor.at_margin ? 1 : 0);
+    return cell_of(place) / console_columns() - (editor.at_margin ? 1 : 0);
 }
 
 static void write_line(size_t from, size_t to) {
     if (to > from) {
         console_write(editor.line + from, to - from);
-        editor.at_margin = cell_of(to) % SCREEN_WIDTH == 0;
+        editor.at_margin = cell_of(to) % console_columns() == 0;
     }
 }
 
@@ -84,7 +83,7 @@ static void print_sequence(size_t count, char letter) {
 
 // The screen's cursor from one place of the line to an earlier one.
 static void move_back(size_t from, size_t to) {
-    size_t rows = row_of_cursor(from) - cell_of(to) / SCREEN_WIDTH;
+    size_t rows = row_of_cursor(from) - cell_of(to) / console_columns();
     bool same_row = rows == 0 && !editor.at_margin;
     editor.at_margin = editor.at_margin && from == to;
     if (from == to) {
@@ -102,8 +101,8 @@ static void move_back(size_t from, size_t to) {
         print_sequence(rows, 'A');
     }
     console_print("\r");
-    if (cell_of(to) % SCREEN_WIDTH > 0) {
-        print_sequence(cell_of(to) % SCREEN_WIDTH, 'C');
+    if (cell_of(to) % console_columns() > 0) {
+        print_sequence(cell_of(to) % console_columns(), 'C');
     }
 }
 
@@ -351,7 +350,7 @@ static void edit(int key) {
 }
 
 static line_editor_result_t finish(line_editor_result_t result) {
-    if (editor.cursor < editor.length && cell_of(editor.length) > SCREEN_WIDTH) {
+    if (editor.cursor < editor.length && cell_of(editor.length) > console_columns()) {
         set_cursor(editor.length); // what comes next must not stand on the line's lower rows
     }
     console_new_line();

@@ -287,24 +287,24 @@ def test_ctrl_c_says_that_it_stops_the_machine():
 WIDTH = 80
 
 
-def screen(shown: str) -> list[str]:
-    """The rows of an 80 column terminal that was sent `shown`; the next letter wraps a full row."""
+def screen(shown: str, width: int = WIDTH) -> list[str]:
+    """The rows of a terminal that was sent `shown`; the next letter wraps a full row."""
     rows, row, column = [[]], 0, 0
     for part in re.findall(r"\x1b\[(?:\d*)[A-Z]|.", shown, re.DOTALL):
         count = int(re.sub(r"\D", "", part[1:]) or 1) if len(part) > 1 else 1
         if part in "\r\n\b":
             row += part == "\n"
-            column = {"\r": 0, "\b": min(column, WIDTH - 1) - 1}.get(part, column)
+            column = {"\r": 0, "\b": min(column, width - 1) - 1}.get(part, column)
         elif len(part) > 1 and part[-1] == "J":
-            assert column < WIDTH, "erases the last character of a full row"
+            assert column < width, "erases the last character of a full row"
             rows[row:] = [rows[row][:column]]
         elif len(part) > 1:
             row -= count if part[-1] == "A" else 0
-            column = min(column, WIDTH - 1) + {"A": 0, "C": count, "D": -count}[part[-1]]
+            column = min(column, width - 1) + {"A": 0, "C": count, "D": -count}[part[-1]]
             assert row >= 0
-            assert 0 <= column < WIDTH
+            assert 0 <= column < width
         else:
-            row, column = (row + 1, 0) if column == WIDTH else (row, column)
+            row, column = (row + 1, 0) if column == width else (row, column)
             rows += [[] for _ in range(row + 1 - len(rows))]
             rows[row] += " " * (column - len(rows[row]))
             rows[row][column : column + 1] = part
@@ -337,20 +337,38 @@ def edited(keys: list[str]) -> str:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_a_line_of_several_rows_is_shown_as_it_is(seed):
+@pytest.mark.parametrize("width", [WIDTH, 40])
+def test_a_line_of_several_rows_is_shown_as_it_is(seed, width):
     random = Random(seed)
-    keys = ["'"] + ["abcdefgh"[i % 8] for i in range(random.choice([20, 76, 77, 78, 156, 157]))]
+    near = [20, width - 4, width - 3, width - 2, 2 * width - 4, 2 * width - 3]
+    keys = ["'"] + ["abcdefgh"[i % 8] for i in range(random.choice(near))]
     for _ in range(30):
         key = random.choice([LEFT, RIGHT, HOME, END, DELETE, BACKSPACE, "z", CTRL_U, UP])
         if key in (CTRL_U, UP):  # a whole line goes, or comes back from the history
-            keys += [CTRL_U] + ["'"] + ["y"] * random.choice([5, 77, 78, 100])
+            keys += [CTRL_U] + ["'"] + ["y"] * random.choice([5, width - 3, width - 2, 100])
         else:
-            keys += [key] * random.choice([1, 1, 2, 79, 80] if key != "z" else [1, 2])
+            keys += [key] * random.choice([1, 1, 2, width - 1, width] if key != "z" else [1, 2])
     line = "> " + edited(keys)
-    rows = [line[i : i + WIDTH].rstrip() for i in range(0, len(line), WIDTH)]
-    shown = screen(session("".join(keys) + "\r"))
+    rows = [line[i : i + width].rstrip() for i in range(0, len(line), width)]
+    shown = session(f"OPTION DISPLAY 24,{width}\r" + "".join(keys) + "\r")
+    shown = screen(shown.split("\r\n", 1)[1], width)
     assert shown[: len(rows)] == rows
     assert shown[len(rows)].startswith((">", "Error"))
+
+
+def test_the_size_of_the_terminal():
+    """HELP keeps to the columns, LIST stops after the lines; nonsense is refused."""
+    overview = answers("OPTION DISPLAY 24,40\rHELP\r")
+    assert max(len(line) for line in overview) < 60  # sentences do not wrap
+    assert max(len(line) for line in overview if line.startswith("  ")) <= 40
+    listed = session(enter("PRINT 1\n" * 9) + "OPTION DISPLAY 5\rLIST\rq")
+    assert listed.count("PRINT 1\r\n") == 9 + 4
+    assert "PRINT 1\r\nPRESS ANY KEY" in listed
+    assert answers("OPTION DISPLAY 1\rOPTION DISPLAY 24,10\rOPTION DISPLAY 24,256\r") == [
+        "Error : lines: 1 is invalid (valid is 2 to 255)",
+        "Error : columns: 10 is invalid (valid is 20 to 255)",
+        "Error : columns: 256 is invalid (valid is 20 to 255)",
+    ]
 
 
 def test_a_long_line_of_the_history_gives_way_to_a_short_one():
