@@ -55,7 +55,7 @@ POINTERS: dict[str, list[str]] = {
     ],
     r"low_priority_worker_irq|dcd_event_handler": [],
     r"rom_[\w.]+": [],
-    r"__wrap_(memset|memcpy|__aeabi_\w+|sqrtf)|__aeabi_\w+|f2fix|\w+_shim\w*": [],
+    r"__wrap_(memset|memcpy|__aeabi_\w+|sqrtf)|__aeabi_\w+|f2fix|float2int(64)?|\w+_shim\w*": [],
     r"isr_hardfault": ["fault_at"],
 }
 
