@@ -15,11 +15,13 @@
 #include "stepper/path.h"
 #include "stepper/planner.h"
 #include "stepper/profile.h"
+#include "stepper/scurve.h"
 #include "stepper/segment_writer.h"
 #include "stepper/step_isr.h"
 
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
 #define SLICE_TICKS 100.0f
+#define SCURVE_SLICES (SCURVE_TICKS / 100u)
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
 #define DWELL_SLICE_TICKS 100u
@@ -41,16 +43,17 @@ static struct {
     bool idle_off;
     bool drivers_on;
 
-    const block_t *block; // being executed, NULL: none
-    uint32_t dwell_left;  // ticks, of a dwell
-    uint64_t progress;    // of a move, in 2^-64 of its length
-    float per_length;     // 2^64 / length of a move
-    float top_speed;      // allowed in it, units/s
-    uint32_t overrides;   // for which that was found
-    float speed;          // along the path now, units/s
-    float acceleration;   // of the piece that led here, units/s^2
-    float pending_ticks;  // computed way that has no segment yet
-    float pending_from;   // speed at its beginning
+    const block_t *block;   // being executed, NULL: none
+    uint32_t dwell_left;    // ticks, of a dwell
+    uint64_t progress;      // of a move, in 2^-64 of its length
+    float per_length;       // 2^64 / length of a move
+    float top_speed;        // allowed in it, units/s
+    uint32_t overrides;     // for which that was found
+    float speed;            // along the path now, units/s
+    float acceleration;     // of the piece that led here, units/s^2
+    uint32_t chosen_slices; // for which a jerk limit has chosen it
+    float pending_ticks;    // computed way that has no segment yet
+    float pending_from;     // speed at its beginning
 } governor;
 
 static float lesser(float a, float b) {
@@ -116,6 +119,7 @@ static void drop_blocks(void) {
     governor.block = NULL;
     governor.speed = 0.0f;
     governor.acceleration = 0.0f;
+    governor.chosen_slices = 0;
     governor.pending_ticks = 0.0f;
     governor.stopping = false;
     planner_release_all();
@@ -133,7 +137,10 @@ static float pass_end(float left, float v1, float dt) {
     float ticks = time * (float)HAL_TICK_HZ;
     bool at_rest = planner_exit_speed2() <= 0.0f;
     go_on(ticks, at_rest ? 0.0f : end_speed);
-    governor.acceleration = at_rest ? 0.0f : acceleration;
+    if (at_rest) {
+        governor.acceleration = 0.0f;
+        governor.chosen_slices = 0;
+    }
 
     if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
         int64_t target[AXIS_COUNT];
@@ -147,45 +154,58 @@ static float pass_end(float left, float v1, float dt) {
     return ticks;
 }
 
-static float next_speed(float left, float *ticks) {
+static profile_t profile_here(float left) {
     bool braking = governor.stopping || governor.holding;
     if (governor.overrides != blocks.overrides) {
         governor.overrides = blocks.overrides;
         governor.top_speed = planner_top_speed(governor.block);
+        governor.chosen_slices = 0;
     }
-    profile_t now = {
+    return (profile_t){
         .block = governor.block,
         .left = left,
         .top = braking ? 0.0f : governor.top_speed,
         .speed = governor.speed,
         .acceleration = governor.acceleration,
     };
-    float v1 = profile_next_speed(&now, ticks);
-    governor.acceleration = now.acceleration;
-    return v1;
 }
 
-// One slice of a move, through as many blocks as it touches and the segment ring has room for. The
-// jerk-limited profile looks across blocks, so what it chose for the slice holds behind them as well.
+// The speed after the next `*ticks`, which it may lessen. The jerk-limited profile looks across blocks, so
+// what it chose holds behind them as well, for some slices.
+static float next_speed(float left, float *ticks) {
+    profile_t here = profile_here(left);
+    if (governor.block->move.jerk <= 0.0f) {
+        governor.chosen_slices = 0;
+        float v1 = profile_next_speed(&here, ticks);
+        float acceleration = governor.block->move.acceleration;
+        governor.acceleration = v1 > here.speed   ? acceleration
+                                : v1 < here.speed ? -acceleration
+                                                  : 0.0f;
+        return v1;
+    }
+    if (governor.chosen_slices == 0) {
+        governor.acceleration = scurve_acceleration(&here);
+        governor.chosen_slices = SCURVE_SLICES;
+    }
+    return scurve_speed(governor.speed, governor.acceleration, *ticks * TICK_S);
+}
+
+// One slice of a move, through as many blocks as it touches and the segment ring has room for.
 static void advance_move(void) {
-    bool chosen = false;
     float ticks = SLICE_TICKS;
     while (ticks >= 1.0f && segment_writer_has_room()) {
         float piece = ticks;
         float left = remaining();
-        float v1 = chosen ? greater(governor.speed + governor.acceleration * piece * TICK_S, 0.0f)
-                          : next_speed(left, &piece);
+        float v1 = next_speed(left, &piece);
         float dt = piece * TICK_S;
         float way = 0.5f * (governor.speed + v1) * dt;
         float advance = lesser(way * governor.per_length, PROGRESS_MOST);
         uint64_t progress = governor.progress + (uint64_t)advance;
         if (way >= left || progress < governor.progress) {
-            bool jerk_limited = governor.block->move.jerk > 0.0f;
             ticks -= pass_end(left, v1, dt);
             if (governor.block == NULL) {
                 return; // at rest
             }
-            chosen = jerk_limited && governor.block->move.jerk > 0.0f;
             continue;
         }
         governor.progress = progress;
@@ -196,6 +216,7 @@ static void advance_move(void) {
         write_way(target, stopped);
         if (stopped) {
             governor.acceleration = 0.0f;
+            governor.chosen_slices = 0;
             if (governor.stopping) {
                 drop_blocks();
             }
@@ -203,6 +224,7 @@ static void advance_move(void) {
         }
         ticks -= piece;
     }
+    governor.chosen_slices -= governor.chosen_slices > 0;
 }
 
 static void advance_dwell(void) {
@@ -327,6 +349,7 @@ void governor_stop(void) {
         jog_stop();
     } else {
         governor.stopping = governor_working();
+        governor.chosen_slices = 0;
     }
 }
 
@@ -358,6 +381,7 @@ void governor_position(int32_t steps[AXIS_COUNT]) {
 
 void governor_hold(bool hold) {
     governor.holding = hold;
+    governor.chosen_slices = 0;
     if (hold) {
         jog_stop();
     }

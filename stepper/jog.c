@@ -7,6 +7,7 @@
 
 #include "stepper/profile.h"
 #include "stepper/ramp.h"
+#include "stepper/scurve.h"
 #include "stepper/segment_writer.h"
 
 #define SLICE_TICKS 100.0f
@@ -20,9 +21,10 @@ static struct {
     jog_request_t now, next;
     block_t line; // the limits, as profile.c reads them
     int64_t position[AXIS_COUNT];
-    bool negative;      // direction of the motion
-    float speed;        // units/s, >= 0
-    float acceleration; // units/s^2, of the last slice
+    bool negative;          // direction of the motion
+    float speed;            // units/s, >= 0
+    float acceleration;     // units/s^2, of the last slice
+    uint32_t chosen_slices; // for which a jerk limit has chosen it
 } jog;
 
 static void take(const jog_request_t *request) {
@@ -45,6 +47,7 @@ void jog_start(const jog_request_t *request) {
         jog.acceleration = 0.0f;
         planner_release_all();
     }
+    jog.chosen_slices = 0;
     jog.changing_axis = jog.active && request->axis != jog.now.axis;
     jog.stopping = jog.changing_axis;
     if (jog.changing_axis) {
@@ -56,6 +59,7 @@ void jog_start(const jog_request_t *request) {
 }
 
 void jog_stop(void) {
+    jog.chosen_slices = 0;
     jog.stopping = true;
     jog.changing_axis = false;
 }
@@ -88,6 +92,7 @@ static float braking_distance(void) {
 static void stand(void) {
     jog.speed = 0.0f;
     jog.acceleration = 0.0f;
+    jog.chosen_slices = 0;
     if (jog.stopping && !jog.changing_axis) {
         segment_writer_settle();
         jog.active = false;
@@ -105,7 +110,6 @@ static void write(float way, float ticks, float end_speed) {
     jog.position[jog.now.axis] += jog.negative ? -moved : moved;
     segment_writer_move(jog.position, ticks, (int32_t)(change * (float)SEGMENT_CHANGE_ONE),
                         end_speed <= 0.0f);
-    jog.acceleration = (end_speed - jog.speed) / (ticks * TICK_S);
     jog.speed = end_speed;
 }
 
@@ -117,6 +121,18 @@ static void arrive(float distance) {
     write(0.0f, ticks < SLICE_TICKS ? ticks + 1.0f : SLICE_TICKS, 0.0f);
     jog.stopping = !jog.changing_axis;
     stand();
+}
+
+static float next_speed(const profile_t *now, float *ticks) {
+    if (jog.now.jerk <= 0.0f) {
+        return profile_next_speed(now, ticks);
+    }
+    if (jog.chosen_slices == 0) {
+        jog.acceleration = scurve_acceleration(now);
+        jog.chosen_slices = SCURVE_TICKS / 100u;
+    }
+    jog.chosen_slices--;
+    return scurve_speed(jog.speed, jog.acceleration, *ticks * TICK_S);
 }
 
 void jog_advance(void) {
@@ -142,7 +158,7 @@ void jog_advance(void) {
         now.left = 1e9f; // just brake
     }
     float ticks = SLICE_TICKS;
-    float v1 = profile_next_speed(&now, &ticks);
+    float v1 = next_speed(&now, &ticks);
     float way = 0.5f * (jog.speed + v1) * ticks * TICK_S;
     if (now.top > 0.0f && (way >= distance || distance <= 0.0f)) {
         arrive(distance);

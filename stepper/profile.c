@@ -9,8 +9,6 @@
 
 #include <math.h>
 
-#include "stepper/scurve.h"
-
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
 // Pieces shorter than this are not worth a segment.
 #define PIECE_TICKS_MIN 8.0f
@@ -44,7 +42,7 @@ static bool split(float *ticks, float part_s) {
     return false;
 }
 
-static float next_speed_trapezoid(const profile_t *now, float *ticks) {
+float profile_next_speed(const profile_t *now, float *ticks) {
     float v = now->speed;
     float acceleration = now->block->move.acceleration;
     float dt = *ticks * TICK_S;
@@ -71,14 +69,4 @@ static float next_speed_trapezoid(const profile_t *now, float *ticks) {
     }
     v1 = lesser(lesser(v1, now->top), profile_braking_speed(now, exit_speed2, *ticks * TICK_S));
     return greater(v1, greater(v - acceleration * dt, 0.0f));
-}
-
-float profile_next_speed(profile_t *now, float *ticks) {
-    if (now->block->move.jerk > 0.0f) {
-        return scurve_next_speed(now, *ticks);
-    }
-    float v1 = next_speed_trapezoid(now, ticks);
-    float acceleration = now->block->move.acceleration;
-    now->acceleration = v1 > now->speed ? acceleration : v1 < now->speed ? -acceleration : 0.0f;
-    return v1;
 }

@@ -14,9 +14,9 @@ typedef struct {
     float acceleration; // units/s^2 that led here
 } profile_t;
 
-// The speed after the next `*ticks`, counted to the end of the block and beyond as if it went on, and
-// in `now` the acceleration that leads to it. May lessen `*ticks` to where the acceleration changes.
-float profile_next_speed(profile_t *now, float *ticks);
+// The speed after the next `*ticks`, counted to the end of the block and beyond as if it went on. May
+// lessen `*ticks` to where the acceleration changes. For blocks without a jerk limit.
+float profile_next_speed(const profile_t *now, float *ticks);
 
 // The most after the next `dt` seconds from which the acceleration alone can still brake to the exit
 // speed; not less than braking gives.

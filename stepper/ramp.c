@@ -23,11 +23,6 @@ float ramp_distance(const ramp_t *ramp, float v, float w) {
     return 0.5f * (v + w) * time;
 }
 
-// D / A + A / J >= 2 sqrt(D / J): the mean of two numbers is not below the root of their product.
-float ramp_distance_bound(const ramp_t *ramp, float v, float w) {
-    return 0.5f * (v + w) * ((v - w) * ramp->per_acceleration + ramp->build_up_s);
-}
-
 float ramp_braking_distance(const ramp_t *ramp, float v, float a, float w) {
     float build_up = a * ramp->per_jerk; // s
     float taken_back = 0.5f * a * build_up;

@@ -14,9 +14,8 @@ typedef struct {
 
 void ramp_set(ramp_t *ramp, float acceleration, float jerk);
 
-// The way from speed v to the lower speed w, both without acceleration; and a bound above it that is cheap.
+// The way from speed v to the lower speed w, both without acceleration.
 float ramp_distance(const ramp_t *ramp, float v, float w);
-float ramp_distance_bound(const ramp_t *ramp, float v, float w);
 
 // The way from speed v with acceleration a until speed w is reached and a taken back, braking as soon
 // as the jerk allows. 0 if that never exceeds w.

@@ -16,11 +16,12 @@
 #include "stepper/scurve.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "stepper/ramp.h"
 
-#define TICK_S (1.0f / (float)HAL_TICK_HZ)
-#define HALF_SLICE_S 0.0005f // at most
+#define SLICE_S ((float)SCURVE_TICKS / (float)HAL_TICK_HZ)
+#define HALF_SLICE_S (0.5f * SLICE_S)
 
 // Bounds whose speeds are alike count as one, at the place of the nearest and with the speed of the
 // slowest: the ratio of their squares, coarser the more have been looked at, since the far ones matter less.
@@ -40,14 +41,15 @@ static const float alike[] = {0.94f, 0.8f, 0.5f};
 // What follows from the limits of a block; the next one often has the same.
 static struct {
     float acceleration, jerk, top;
+    float step; // change of the acceleration in a slice
+    v2_t top2;  // just above the square of `top`
     ramp_t ramp;
-    int32_t within; // how far ahead of the end of the front block a bound can matter at `top`, as `way`
+    int32_t within; // how far ahead a bound can matter at `top`, as `way`
 } limits;
 
 // The choice for one slice while it is made.
 typedef struct {
     const profile_t *now;
-    float half_s;      // half of the slice
     ramp_t ramp;       // limits from here to the bound being looked at
     span_t span;       // the same
     int32_t within;    // see above
@@ -66,32 +68,52 @@ static float greater(float a, float b) {
     return a > b ? a : b;
 }
 
-// How far ahead a bound can matter at this speed.
-static int32_t reach(const ramp_t *ramp, float speed) {
-    float distance = ramp_distance_bound(ramp, speed, 0.0f) +
-                     speed * (HALF_SLICE_S + ramp->build_up_s);
+static int32_t whole_way(float distance) {
     float way = distance * WAY_ONE;
     return way < 1e9f ? (int32_t)way : 1000000000;
+}
+
+// How far ahead a bound can matter while the speed stays below `top`, whatever the acceleration is.
+static int32_t reach(const ramp_t *ramp, float top) {
+    float taken_back_s = lesser(ramp->build_up_s, sqrtf(2.0f * top * ramp->per_jerk));
+    return whole_way(ramp_distance(ramp, top, 0.0f) + top * (HALF_SLICE_S + taken_back_s));
+}
+
+static v2_t v2_above(float speed) {
+    float units = speed * speed * blocks.v2_per_unit + 1.0f;
+    return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
+}
+
+// Quicker than a comparison of floats without a floating-point unit.
+static bool same(float a, float b) {
+    uint32_t bits_a;
+    uint32_t bits_b;
+    memcpy(&bits_a, &a, sizeof bits_a);
+    memcpy(&bits_b, &b, sizeof bits_b);
+    return bits_a == bits_b;
 }
 
 static void take_limits(choice_t *choice) {
     const profile_t *now = choice->now;
     const block_t *block = now->block;
     choice->span = planner_span_of(block);
-    if (block->move.acceleration != limits.acceleration || block->move.jerk != limits.jerk) {
+    if (!same(block->move.acceleration, limits.acceleration) ||
+        !same(block->move.jerk, limits.jerk)) {
         limits.acceleration = block->move.acceleration;
         limits.jerk = block->move.jerk;
+        limits.step = limits.jerk * SLICE_S;
         ramp_set(&limits.ramp, PLANNED_ACCELERATION * limits.acceleration,
                  PLANNED_JERK * limits.jerk);
         limits.top = -1.0f;
     }
     choice->ramp = limits.ramp;
     if (now->speed > now->top) {
-        choice->within = reach(&limits.ramp, now->speed + limits.ramp.full_change);
+        choice->within = reach(&limits.ramp, now->speed);
         return;
     }
-    if (now->top != limits.top) {
+    if (!same(now->top, limits.top)) {
         limits.top = now->top;
+        limits.top2 = v2_above(now->top);
         limits.within = reach(&limits.ramp, now->top);
     }
     choice->within = limits.within;
@@ -100,17 +122,16 @@ static void take_limits(choice_t *choice) {
 static float crest(const choice_t *choice, float acceleration) {
     float v = choice->now->speed;
     return acceleration > 0.0f
-               ? v + acceleration * (choice->half_s + 0.5f * acceleration * choice->ramp.per_jerk)
+               ? v + acceleration * (HALF_SLICE_S + 0.5f * acceleration * choice->ramp.per_jerk)
                : v;
 }
 
 // The highest acceleration that jerk, acceleration and top speed allow.
 static void choose_freely(choice_t *choice) {
     const profile_t *now = choice->now;
-    float step = limits.jerk * (2.0f * choice->half_s);
     float full = limits.acceleration;
-    float most = now->acceleration + step;
-    float least = now->acceleration - step;
+    float most = now->acceleration + limits.step;
+    float least = now->acceleration - limits.step;
     if (most > full) {
         most = greater(full, least);
     } else if (least < -full) {
@@ -120,11 +141,16 @@ static void choose_freely(choice_t *choice) {
     choice->chosen = most;
     choice->crest = crest(choice, most);
     if (choice->crest > now->top) {
-        float towards = now->speed == now->top
+        float towards = same(now->speed, now->top)
                             ? 0.0f
-                            : ramp_towards(&choice->ramp, now->speed, now->top, choice->half_s);
-        choice->chosen = greater(least, lesser(most, towards));
-        choice->crest = crest(choice, choice->chosen);
+                            : ramp_towards(&choice->ramp, now->speed, now->top, HALF_SLICE_S);
+        if (towards >= least) {
+            choice->chosen = lesser(most, towards);
+            choice->crest = greater(now->top, now->speed);
+        } else {
+            choice->chosen = least;
+            choice->crest = crest(choice, least);
+        }
     }
 }
 
@@ -133,12 +159,12 @@ static void choose_freely(choice_t *choice) {
 // By how much braking ends before `distance` if this slice has `acceleration`.
 static float margin(const choice_t *choice, float acceleration, float distance, float cap) {
     float v = choice->now->speed;
-    float middle = greater(v + acceleration * choice->half_s, 0.0f);
+    float middle = greater(v + acceleration * HALF_SLICE_S, 0.0f);
     float braking = ramp_braking_distance(&choice->ramp, middle, acceleration, cap);
     if (braking <= 0.0f) {
         return distance; // the bound may well be passed in this slice
     }
-    return distance - 0.5f * (v + middle) * choice->half_s - braking;
+    return distance - 0.5f * (v + middle) * HALF_SLICE_S - braking;
 }
 
 // Lowers the acceleration as far as the bound needs it. The margin is a concave function of the
@@ -146,10 +172,9 @@ static float margin(const choice_t *choice, float acceleration, float distance, 
 static void meet(choice_t *choice, float distance, float cap) {
     float build_up_s = choice->chosen > 0.0f ? choice->chosen * choice->ramp.per_jerk : 0.0f;
     choice->tests++;
-    if (choice->crest <= cap ||
-        ramp_distance_bound(&choice->ramp, choice->crest, cap) +
-                choice->crest * (choice->half_s + build_up_s) <=
-            distance) {
+    if (choice->crest <= cap || ramp_distance(&choice->ramp, choice->crest, cap) +
+                                        choice->crest * (HALF_SLICE_S + build_up_s) <=
+                                    distance) {
         return;
     }
     float high = margin(choice, choice->chosen, distance, cap);
@@ -172,10 +197,10 @@ static void take_span(choice_t *choice, span_t span) {
         return;
     }
     choice->span = span_least(choice->span, span);
-    ramp_set(&choice->ramp,
-             lesser(choice->ramp.acceleration,
-                    PLANNED_ACCELERATION * span_acceleration(choice->span)),
-             lesser(choice->ramp.jerk, PLANNED_JERK * span_jerk(choice->span)));
+    ramp_set(
+        &choice->ramp,
+        lesser(choice->ramp.acceleration, PLANNED_ACCELERATION * span_acceleration(choice->span)),
+        lesser(choice->ramp.jerk, PLANNED_JERK * span_jerk(choice->span)));
     choice->within = reach(&choice->ramp, choice->crest);
 }
 
@@ -193,16 +218,12 @@ static void keep_next_span(choice_t *choice, span_t span, int32_t way) {
     }
 }
 
-static v2_t v2_above(float speed) {
-    float units = speed * speed * blocks.v2_per_unit + 1.0f;
-    return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
-}
-
 // Bounds that do not matter are passed over with integers alone; there may be hundreds.
 static void meet_bounds(choice_t *choice) {
     const block_t *second = planner_second();
     uint32_t here = second != NULL ? second->way : blocks.end_way;
-    v2_t slower = v2_above(choice->crest);
+    v2_t slower = same(choice->crest, limits.top) ? limits.top2 : v2_above(choice->crest);
+    int32_t left = whole_way(choice->now->left);
     float group_distance = 0.0f;
     float group_speed2 = -1.0f; // none
     float alike_speed2 = 0.0f;
@@ -214,7 +235,7 @@ static void meet_bounds(choice_t *choice) {
         }
         way = (int32_t)(bound.way - here);
         take_span(choice, bound.span);
-        if (way > choice->within) {
+        if (way > choice->within - left) {
             break;
         }
         v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
@@ -243,30 +264,38 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
-float scurve_next_speed(profile_t *now, float ticks) {
-    float dt = ticks * TICK_S;
-    choice_t choice = {.now = now, .half_s = 0.5f * dt};
+float scurve_acceleration(const profile_t *now) {
+    choice_t choice = {.now = now};
     take_limits(&choice);
     choose_freely(&choice);
     meet_bounds(&choice);
 
-    now->acceleration = choice.chosen;
-    float v1 = now->speed + choice.chosen * dt;
+    float v1 = now->speed + choice.chosen * SLICE_S;
     if (choice.out_of_reach) {
         // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk last.
-        float most = HAIR * profile_braking_speed(now, planner_exit_speed2(), dt);
+        float most = HAIR * profile_braking_speed(now, planner_exit_speed2(), SLICE_S);
         if (v1 > most) {
             v1 = most;
-            now->acceleration = (v1 - now->speed) / dt;
+            choice.chosen = (most - now->speed) * (1.0f / SLICE_S);
         }
+    }
+    if (v1 <= 0.0f && now->speed <= 0.0f && now->top > 0.0f) {
+        // Not even a slice long: half of the way in this slice.
+        return lesser(limits.acceleration, now->left * (1.0f / (SLICE_S * SLICE_S)));
     }
     if (v1 < CREEP && choice.chosen < 0.0f) {
         // What is left in the end may be a hair longer than planned: do not get slower before.
         float creep = now->top > 0.0f ? lesser(now->speed, CREEP) : 0.0f;
-        if (v1 < creep || v1 < limits.jerk * dt * dt) {
-            now->acceleration = (creep - now->speed) / dt;
-            return creep;
+        if (v1 < creep || v1 < limits.step * SLICE_S) {
+            return (creep - now->speed) * (1.0f / SLICE_S);
         }
     }
-    return v1;
+    return choice.chosen;
+}
+
+float scurve_speed(float speed, float acceleration, float dt) {
+    float change = acceleration * dt;
+    float v1 = speed + change;
+    // What rounding leaves of a speed that should be 0 would never end.
+    return v1 > -0.001f * change ? v1 : 0.0f;
 }

@@ -4,7 +4,13 @@
 
 #include "stepper/profile.h"
 
-// As profile_next_speed(), for blocks with a jerk limit.
-float scurve_next_speed(profile_t *now, float ticks);
+// An acceleration holds for this long. Shorter follows the limits more closely, and costs more.
+#define SCURVE_TICKS 200u
+
+// The acceleration for the next SCURVE_TICKS. now->acceleration is the one that ends here.
+float scurve_acceleration(const profile_t *now);
+
+// The speed after `dt` seconds of it.
+float scurve_speed(float speed, float acceleration, float dt);
 
 #endif
