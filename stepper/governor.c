@@ -27,8 +27,9 @@
 #define DWELL_SLICE_TICKS 100u
 // Time the drivers get between being enabled and the first step.
 #define ENABLE_TICKS 5u
-// Computed ahead: more rides out longer delays of this interrupt, less reacts faster.
-#define AHEAD_TICKS 101u
+// The governor is called when a segment ends. This is left then: more rides out longer delays of this
+// interrupt, less reacts faster.
+#define SPARE_TICKS 60u
 #define PROGRESS_ONE 18446744073709551616.0f  // 2^64
 #define PROGRESS_MOST 18446742974197923840.0f // the float below
 
@@ -289,11 +290,18 @@ static bool advance(void) {
     return true;
 }
 
+// The tick may be running although there is nothing to execute. A motion is shown to it only when there is
+// enough to go on with: its first segments can be as short as a tick.
 void governor_fill(uint32_t ticks) {
+    bool starting = ring_used(&segments.ring) == 0;
     bool more = governor.armed;
-    while (more && segment_writer_ahead_ticks() < ticks && segment_writer_has_room()) {
+    while (more && segment_writer_spare_ticks() < ticks && segment_writer_has_room()) {
         more = advance();
+        if (!starting) {
+            segment_writer_publish();
+        }
     }
+    segment_writer_publish();
     if (ring_used(&segments.ring) > 0) {
         hal_tick_start();
     }
@@ -306,7 +314,7 @@ void hal_on_governor(void) {
         governor.estop_event = true;
         return;
     }
-    governor_fill(AHEAD_TICKS);
+    governor_fill(SPARE_TICKS);
 }
 
 // ---- For the main loop ---------------------------------------------------------------------------
@@ -399,9 +407,10 @@ bool governor_stopping(void) {
     return governor.stopping;
 }
 
+// In this order: what is gone when it is looked for has become segments before.
 bool governor_working(void) {
     return governor.armed &&
-           (ring_used(&segments.ring) > 0 || ring_used(&blocks.ring) > 0 || jog_active());
+           (jog_active() || ring_used(&blocks.ring) > 0 || ring_used(&segments.ring) > 0);
 }
 
 uint32_t governor_executed(void) {

@@ -47,7 +47,8 @@ static struct {
     uint32_t dir_inverted;
     int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
     uint32_t end_ticks;
-    pace_t pace; // the last one; the next is often the same
+    uint32_t unpublished; // slots that are filled
+    pace_t pace;          // the last one; the next is often the same
 } writer;
 
 // Segments that were dropped may have been about to turn an axis round, so the pins have the last word.
@@ -97,16 +98,16 @@ void segment_writer_settle(void) {
     stand_at(steps);
 }
 
-uint32_t segment_writer_ahead_ticks(void) {
-    if (ring_used(&segments.ring) == 0) {
+uint32_t segment_writer_spare_ticks(void) {
+    if (ring_used(&segments.ring) + writer.unpublished == 0) {
         return 0;
     }
     const segment_t *oldest = &segments.slots[segments.ring.take_slot];
-    return writer.end_ticks - (oldest->end_ticks - oldest->ticks);
+    return writer.end_ticks - oldest->end_ticks;
 }
 
 bool segment_writer_has_room(void) {
-    return ring_free(&segments.ring) >= ROOM;
+    return ring_free(&segments.ring) >= writer.unpublished + ROOM;
 }
 
 // ---- One segment ---------------------------------------------------------------------------------
@@ -215,11 +216,17 @@ static uint32_t write_segment(const int64_t target[AXIS_COUNT], const pace_t *pa
     return turning;
 }
 
-static void publish(void) {
+static void close_slot(void) {
     segment_t *segment = open_slot();
     writer.end_ticks += segment->ticks;
     segment->end_ticks = writer.end_ticks;
-    ring_put(&segments.ring);
+    ring_fill(&segments.ring);
+    writer.unpublished++;
+}
+
+void segment_writer_publish(void) {
+    ring_publish(&segments.ring, writer.unpublished);
+    writer.unpublished = 0;
 }
 
 // Shortens the segment in the open slot to `ticks`, 0 or 1, with the axes of `standing` at rest.
@@ -278,7 +285,7 @@ static inline uint32_t go(const way_t *way) {
 // Goes only one tick of what is in the open slot. `standing`: axes that do not take part.
 static void go_one_tick(way_t *way, uint32_t standing) {
     shorten(1, standing);
-    publish();
+    close_slot();
     if (way->due >= 2 * TICK_ONE) {
         // With the mean speed as 1, a tick of the way from 1 - change to 1 + change is done.
         int32_t done = TICK_ONE + way->change / (SEGMENT_CHANGE_ONE / TICK_ONE);
@@ -352,7 +359,7 @@ SEPARATE static void arrive(const int64_t target[AXIS_COUNT]) {
     }
     if (farthest >= NO_DISTANCE) {
         int32_t ticks = (int32_t)(((uint64_t)farthest + RATE_MAX - 1) / RATE_MAX);
-        publish();
+        close_slot();
         go(&(way_t){.target = target, .due = ticks * TICK_ONE});
     }
     open_slot()->flags |= SEGMENT_MAY_END;
@@ -375,7 +382,7 @@ void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t 
     if (at_rest) {
         arrive(target);
     }
-    publish();
+    close_slot();
 }
 
 void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear) {
@@ -388,5 +395,5 @@ void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear)
     segment->pins_set = pins_set;
     segment->pins_clear = pins_clear;
     segment->flags |= SEGMENT_MAY_END;
-    publish();
+    close_slot();
 }

@@ -23,14 +23,17 @@ void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t 
 // Stands still for `ticks` (>= 1); the pins are switched at the first one.
 void segment_writer_wait(uint32_t ticks, uint32_t pins_set, uint32_t pins_clear);
 
+// Shows the tick what was written since the last call.
+void segment_writer_publish(void);
+
 // Motor positions at the end of the last segment.
 void segment_writer_end_steps(int32_t steps[AXIS_COUNT]);
 
 // Takes the motor position as the exact position, after a stop between two steps.
 void segment_writer_settle(void);
 
-// Ticks in the ring; room for what one call of the functions above can write.
-uint32_t segment_writer_ahead_ticks(void);
+// Ticks behind the segment that the tick is at; room for what one call of the functions above can write.
+uint32_t segment_writer_spare_ticks(void);
 bool segment_writer_has_room(void);
 
 #endif

@@ -45,6 +45,7 @@ void stepper_stop(void) {
         return;
     }
     if (!governor_working()) {
+        stepper_hold(false);
         stepper_clear();
         return;
     }

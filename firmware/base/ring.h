@@ -2,7 +2,7 @@
 // The slots belong to the owner; this keeps only who may touch which. Indices run freely and wrap at
 // 2^32, so every slot can be used and `written - read` is the fill; a size need not be a power of two
 // as long as it is at most RING_MAX_SIZE, because each side keeps its own slot number beside its count.
-// Context: `ring_put_*` in the writer's, `ring_take_*` in the reader's, the counts in any.
+// Context: `ring_put`, `_fill` and `_publish` in the writer's, `ring_take` in the reader's, the counts in any.
 #ifndef BASE_RING_H
 #define BASE_RING_H
 
@@ -32,11 +32,21 @@ static inline uint32_t ring_free(const ring_t *ring) {
     return ring->size - ring_used(ring);
 }
 
+// The writer has filled the slot `put_slot` and goes on to the next; the reader does not see it yet.
+static inline void ring_fill(ring_t *ring) {
+    ring->put_slot = ring->put_slot + 1 < ring->size ? ring->put_slot + 1 : 0;
+}
+
+// Publishes this many slots that were filled.
+static inline void ring_publish(ring_t *ring, uint32_t filled) {
+    RING_BARRIER();
+    ring->written = ring->written + filled;
+}
+
 // Publishes the slot `put_slot`, which the writer has filled.
 static inline void ring_put(ring_t *ring) {
-    RING_BARRIER();
-    ring->put_slot = ring->put_slot + 1 < ring->size ? ring->put_slot + 1 : 0;
-    ring->written = ring->written + 1;
+    ring_fill(ring);
+    ring_publish(ring, 1);
 }
 
 // Gives the slot `take_slot` back to the writer.

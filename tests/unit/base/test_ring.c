@@ -83,9 +83,27 @@ static void test_reset_forgets(void) {
     TEST_ASSERT_EQUAL_UINT32(0, ring.take_slot);
 }
 
+static void test_slots_filled_are_seen_when_they_are_published(void) {
+    ring_reset(&ring, 4);
+    for (uint32_t i = 0; i < 3; i++) {
+        slots[ring.put_slot] = 40 + i;
+        ring_fill(&ring);
+        TEST_ASSERT_EQUAL_UINT32(0, ring_used(&ring));
+    }
+    ring_publish(&ring, 2);
+    TEST_ASSERT_EQUAL_UINT32(2, ring_used(&ring));
+    ring_publish(&ring, 1);
+    TEST_ASSERT_EQUAL_UINT32(3, ring.put_slot);
+    for (uint32_t i = 0; i < 3; i++) {
+        TEST_ASSERT_EQUAL_UINT32(40 + i, slots[ring.take_slot]);
+        ring_take(&ring);
+    }
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_new_ring_is_empty);
+    RUN_TEST(test_slots_filled_are_seen_when_they_are_published);
     RUN_TEST(test_any_size_keeps_order_and_uses_every_slot);
     RUN_TEST(test_counters_wrap);
     RUN_TEST(test_reset_forgets);

@@ -93,6 +93,11 @@ static void test_stop_and_emergency_stop_end_a_hold(void) {
     bench_move(1, 0, 0, 0, 6000);
     bench_finish(1);
     TEST_ASSERT_EQUAL_INT32(80, stepper_position_steps(AXIS_X));
+    stepper_hold(true);
+    stepper_stop(); // at rest
+    bench_move(0, 0, 0, 0, 6000);
+    bench_finish(1);
+    TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
     bench_end();
 }
 
