@@ -92,7 +92,6 @@ GRID_MOVES = [
 ]
 
 
-@pytest.mark.xfail(strict=True, reason="the last slices of a move brake by up to 0.1 ms off")
 @pytest.mark.parametrize("acceleration", [20.0, 500.0, 5000.0, 100_000.0])
 def test_every_step_is_within_half_a_tick_and_a_microsecond(tmp_path, acceleration):
     setup = Setup(
