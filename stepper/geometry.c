@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "stepper/axis.h"
+#include "stepper/planner.h"
 
 // |u - u_prev|^2 / 4 = sin^2(phi/2) for unit vectors with the angle phi between them: straight on below the
 // first, back the same way above the last; above the second exact-path mode sees a corner (5 degrees).
@@ -25,25 +26,48 @@ static float minimum(float a, float b) {
     return a < b ? a : b;
 }
 
-// ---- Lines ---------------------------------------------------------------------------------------
+static float maximum(float a, float b) {
+    return a > b ? a : b;
+}
 
-static void project_limits(geometry_t *g) {
+// ---- Limits --------------------------------------------------------------------------------------
+
+void geometry_project_limits(geometry_t *g, const float share[AXIS_COUNT]) {
     const geometry_settings_t *settings = &geometry_settings;
     g->axes_speed = FLT_MAX;
     g->acceleration = FLT_MAX;
     g->jerk = settings->scurve ? settings->jerk : 0.0f;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        float share = fabsf(g->start[axis]);
-        if (share <= 0.0f || !axes[axis].configured) {
+        if (share[axis] <= 0.0f || !axes[axis].configured) {
             continue;
         }
-        g->axes_speed = minimum(g->axes_speed, axes[axis].velocity / share);
-        g->acceleration = minimum(g->acceleration, axes[axis].acceleration / share);
+        g->axes_speed = minimum(g->axes_speed, axes[axis].velocity / share[axis]);
+        g->acceleration = minimum(g->acceleration, axes[axis].acceleration / share[axis]);
         if (settings->axis_jerk[axis] > 0.0f) {
-            g->jerk = minimum(g->jerk, settings->axis_jerk[axis] / share);
+            g->jerk = minimum(g->jerk, settings->axis_jerk[axis] / share[axis]);
         }
     }
 }
+
+float geometry_top_speed(const geometry_t *g) {
+    if (g->feed <= 0.0f) {
+        return g->axes_speed;
+    }
+    float override = blocks.override.feed > 1.0f ? blocks.override.feed : 1.0f;
+    return minimum(g->feed * override, g->axes_speed);
+}
+
+// Up to twice the speed, since the feed may be overridden later; but as long as the feed itself does not need
+// more, nine tenths of the acceleration are left along the path: sqrt(1 - 0.436^2).
+#define TURNING_SPARE 0.436f
+
+float geometry_turning_share(float needed, float most) {
+    float spare = minimum(4.0f * needed, TURNING_SPARE);
+    float at_least = minimum(needed, most);
+    return spare > at_least ? spare : at_least;
+}
+
+// ---- Lines ---------------------------------------------------------------------------------------
 
 void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_move_t *move) {
     double linear2 = 0.0;
@@ -57,9 +81,13 @@ void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         g->start[axis] = (float)delta[axis] * per_length;
     }
+    float share[AXIS_COUNT];
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        share[axis] = fabsf(g->start[axis]);
+    }
     memcpy(g->end, g->start, sizeof g->end);
     g->feed = move->rapid ? 0.0f : (float)move->feed / 60.0f * (g->length / feed_length);
-    project_limits(g);
+    geometry_project_limits(g, share);
 }
 
 // ---- Corners -------------------------------------------------------------------------------------
@@ -101,6 +129,73 @@ float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,
     float half_length = 0.5f * minimum(before->length, next->length);
     float by_length = acceleration * half_length * s / sqrtf(sin2);
     return minimum(by_deviation, by_length);
+}
+
+// ---- Blends --------------------------------------------------------------------------------------
+//
+// From `reach` before the corner to `reach` behind it the velocity changes evenly from v u to v u', in the time
+// 2 reach / v. The acceleration is v^2 (u' - u) / (2 reach), and the middle of the curve is
+// reach |u' - u| / 4 from the corner.
+
+// Straight lines keep a little between two blends.
+#define BLEND_SHARE 0.4999f
+// A change of speed that takes less than this is over before anything follows it.
+#define BLEND_TIME_MIN_S 0.001f
+#define BLEND_TURNING_MAX 0.75f
+
+uint32_t geometry_fraction(const geometry_t *line, float length) {
+    return (uint32_t)(length / line->length * 4294967296.0f);
+}
+
+float geometry_part(const geometry_t *line, uint32_t lead_in, uint32_t lead_out) {
+    return (float)(((uint64_t)1 << 32) - lead_in - lead_out) * (line->length / 4294967296.0f);
+}
+
+// The slower of both; a rapid move goes at the feed of the other one.
+static float blend_feed(const geometry_t *before, const geometry_t *next) {
+    if (before->feed <= 0.0f || next->feed <= 0.0f) {
+        return before->feed + next->feed;
+    }
+    return minimum(before->feed, next->feed);
+}
+
+bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *next,
+                    float tolerance_mm, float *reach) {
+    float change[AXIS_COUNT], share[AXIS_COUNT];
+    float change2 = 0.0f;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        change[axis] = next->start[axis] - before->end[axis];
+        change2 += change[axis] * change[axis];
+        share[axis] = maximum(fabsf(next->start[axis]), fabsf(before->end[axis]));
+        g->start[axis] = before->end[axis];
+        g->end[axis] = next->start[axis];
+    }
+    if (change2 * 0.25f < STRAIGHT_ON || change2 * 0.25f > REVERSAL) {
+        return false;
+    }
+    float size = sqrtf(change2);
+    *reach =
+        minimum(4.0f * tolerance_mm / size, BLEND_SHARE * minimum(before->length, next->length));
+    g->length = 2.0f * *reach;
+    g->feed = blend_feed(before, next);
+    geometry_project_limits(g, share);
+    float top = geometry_top_speed(g);
+    float turning_limit =
+        acceleration_along(change, size) / size; // v^2 / length at the axes' limits
+    if (top < turning_limit * BLEND_TIME_MIN_S) {
+        return false;
+    }
+    float fastest2 = turning_limit * g->length;
+    float turning = geometry_turning_share(top * top / fastest2, BLEND_TURNING_MAX);
+    g->axes_speed = minimum(g->axes_speed, sqrtf(turning * fastest2));
+    float used = g->axes_speed * g->axes_speed / g->length;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (share[axis] > 0.0f && axes[axis].configured) {
+            float left = axes[axis].acceleration - used * fabsf(change[axis]);
+            g->acceleration = minimum(g->acceleration, left / share[axis]);
+        }
+    }
+    return true;
 }
 
 // ---- S-curves over many short moves --------------------------------------------------------------

@@ -7,7 +7,8 @@
 
 // What the limits are projected from; applies to moves queued from now on.
 typedef struct {
-    float deviation; // junction deviation, mm
+    float deviation;     // junction deviation, mm
+    float arc_tolerance; // mm
     bool scurve;
     float jerk;                  // along the path, units/s^3
     float axis_jerk[AXIS_COUNT]; // 0: none of its own
@@ -25,8 +26,27 @@ typedef struct {
     float jerk;         // units/s^3; 0: trapezoid
 } geometry_t;
 
+// Speed, acceleration and jerk within the limits of the axes, of whose way each has at most this share.
+void geometry_project_limits(geometry_t *g, const float share[AXIS_COUNT]);
+
+// The fastest that the move is meant to be, units/s.
+float geometry_top_speed(const geometry_t *g);
+
+// How much of the acceleration may be used to turn, 0..1, if `needed` is used at geometry_top_speed().
+// The speed is limited by it, and the change of speed by what it leaves.
+float geometry_turning_share(float needed, float most);
+
 // A line by `delta` units.
 void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_move_t *move);
+
+// The parabola between two lines that leaves the corner by at most `tolerance_mm`; it begins and ends `reach`
+// from the corner, which is less than half of each line. False: the corner is better passed as it is.
+bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *next,
+                    float tolerance_mm, float *reach);
+
+// A length as 2^-32 of a line, and what is left of the line when such parts are cut off both ends.
+uint32_t geometry_fraction(const geometry_t *line, float length);
+float geometry_part(const geometry_t *line, uint32_t lead_in, uint32_t lead_out);
 
 // The square of the speed that the corner between two moves allows, at most FLT_MAX.
 float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,

@@ -73,7 +73,7 @@ err_t machine_check_queue(void) {
     if (jog_active()) {
         return err_raise(ERR_JOGGING, NULL);
     }
-    return ring_free(&blocks.ring) > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
+    return planner_free() > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
 }
 
 bool machine_estop_asserted(void) {

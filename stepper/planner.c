@@ -17,11 +17,16 @@
 // Context: main loop, the queue with the governor locked; the governor for what its section says.
 #include "stepper/planner.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+#include "stepper/arc.h"
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
+
+// A line, its blend and the next line, and one to spare.
+#define BLEND_RING_MIN 4u
 
 planner_ring_t blocks;
 
@@ -30,6 +35,7 @@ static struct {
     double target[AXIS_COUNT];    // end of the last queued move, units
     int32_t target_steps[AXIS_COUNT];
     bool corner; // the last queued block is a move, `last` is what it is like
+    bool blends; // the last one is a line that may be rounded off at its end
     geometry_t last;
     float way_rest; // what `way` of the newest block leaves out, 0..1
     float end_way_rest;
@@ -72,6 +78,10 @@ void planner_set_position(const int32_t steps[AXIS_COUNT]) {
 
 void planner_target(double target[AXIS_COUNT]) {
     memcpy(target, planner.commanded, sizeof planner.commanded);
+}
+
+static float lesser(float a, float b) {
+    return a < b ? a : b;
 }
 
 static v2_t v2_from(float speed2) {
@@ -209,6 +219,18 @@ static block_t *next_slot(void) {
     return &blocks.slots[blocks.ring.put_slot];
 }
 
+// Puts the block in the next slot, which is complete but for its place, behind all others. Governor locked.
+static void publish(void) {
+    uint32_t slot = blocks.ring.put_slot;
+    block_t *block = &blocks.slots[slot];
+    block->way = blocks.end_way;
+    block->climb = blocks.end_climb;
+    planner.way_rest = planner.end_way_rest;
+    bind(slot);
+    set_end(block);
+    ring_put(&blocks.ring);
+}
+
 // Puts the block in next_slot(), whose own part is filled in, behind all others.
 static void push_block(void) {
     uint32_t slot = blocks.ring.put_slot;
@@ -219,12 +241,7 @@ static void push_block(void) {
         clear_binding();
         block->binds = false; // it starts at rest
     }
-    block->way = blocks.end_way;
-    block->climb = blocks.end_climb;
-    planner.way_rest = planner.end_way_rest;
-    bind(slot);
-    set_end(block);
-    ring_put(&blocks.ring);
+    publish();
     hal_governor_unlock();
 }
 
@@ -239,28 +256,161 @@ static void fill_move(block_t *block, const geometry_t *g, float corner2,
     block->move.corner = v2_from(corner2);
 }
 
-void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
-    memcpy(planner.commanded, move->target, sizeof planner.commanded);
-    if (memcmp(target_steps, planner.target_steps, sizeof planner.target_steps) == 0) {
-        return;
+// ---- Blends --------------------------------------------------------------------------------------
+
+// The newest block is a line that nobody has begun to follow; the corner behind it may still be changed.
+static bool may_shorten(void) {
+    uint32_t used = ring_used(&blocks.ring);
+    return planner.corner && planner.blends && blocks.ring.size >= BLEND_RING_MIN &&
+           (used > 1 || (used == 1 && !blocks.front_started));
+}
+
+uint32_t planner_free(void) {
+    uint32_t free = ring_free(&blocks.ring);
+    return free - (free > 0 && may_shorten());
+}
+
+// A distance in which the machine can come to a standstill whatever it does now, at `speed` and any
+// acceleration: the latter is taken back first.
+static float stop_length(float speed, float acceleration, float jerk) {
+    float ramp = acceleration / jerk;
+    float top = speed + 0.5f * acceleration * ramp;
+    return top * (0.5f * top / acceleration + 2.0f * ramp);
+}
+
+// Whether the machine can still stop where the line in `slot` will end, `cut` before its end. Only then
+// may the end be changed: what it does already is not based on anything behind that.
+static bool is_far_ahead(const block_t *line, float rest) {
+    if (!blocks.front_started) {
+        return true;
     }
-    double delta[AXIS_COUNT];
+    const block_t *second = planner_second();
+    float exit2 = planner_exit_speed2();
+    v2_t gain = v2_from(2.0f * line->move.acceleration * rest);
+    if (line->climb + gain - second->climb < v2_from(exit2)) {
+        return false;
+    }
+    if (line->move.jerk <= 0.0f) {
+        return true;
+    }
+    if (exit2 <= 0.0f) { // perhaps it is no move
+        return true;
+    }
+    const block_t *front = planner_front();
+    float way = (float)(line->way - second->way) / WAY_ONE + rest;
+    float acceleration = lesser(front->move.acceleration, line->move.acceleration);
+    return stop_length(sqrtf(exit2), acceleration, lesser(front->move.jerk, line->move.jerk)) < way;
+}
+
+// Cuts `lead` in 2^-32 off the end of the newest block, a line. False: it is too late for that. Governor
+// locked.
+static bool shorten(uint32_t slot, uint32_t lead) {
+    block_t *line = &blocks.slots[slot];
+    float rest = geometry_part(&planner.last, line->move.line.lead_in, lead);
+    if (!may_shorten() || !is_far_ahead(line, rest)) {
+        return false;
+    }
+    line->move.line.lead_out = lead;
+    line->move.length = rest;
+    set_end(line);
+    return true;
+}
+
+// Rounds the corner to the new line `g` off: a block for the parabola and one for what is left of the line.
+// False if that is not possible or no use.
+static bool push_blended(const geometry_t *g, const stepper_move_t *move,
+                         const int32_t target_steps[AXIS_COUNT]) {
+    geometry_t curve;
+    float reach;
+    if (move->corner != STEPPER_CORNER_BLEND || !may_shorten() || ring_free(&blocks.ring) < 2 ||
+        !geometry_blend(&curve, &planner.last, g, (float)move->blend_mm, &reach)) {
+        return false;
+    }
+    uint32_t slot = blocks.ring.put_slot;
+    uint32_t before = slot_before(slot);
+    uint32_t behind = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+    block_t *blend = &blocks.slots[slot];
+    block_t *line = &blocks.slots[behind];
+    *blend = (block_t){.kind = BLOCK_BLEND};
+    fill_move(blend, &curve, FLT_MAX, planner.target_steps);
+    *line = (block_t){.kind = BLOCK_LINE};
+    fill_move(line, g, FLT_MAX, target_steps);
+    line->move.line.lead_in = geometry_fraction(g, reach);
+    line->move.length = geometry_part(g, line->move.line.lead_in, 0);
+    find_entry_cap(&blocks.slots[before], blend, &blocks.override);
+    find_entry_cap(blend, line, &blocks.override);
+    hal_governor_lock();
+    bool done = shorten(before, geometry_fraction(&planner.last, reach));
+    if (done) {
+        publish();
+        publish();
+    }
+    hal_governor_unlock();
+    return done;
+}
+
+// ---- New moves -----------------------------------------------------------------------------------
+
+// The move `g` is queued; the next one starts behind it.
+static void follow_move(const geometry_t *g, const stepper_move_t *move,
+                        const int32_t target_steps[AXIS_COUNT]) {
+    memcpy(planner.target, move->target, sizeof planner.target);
+    memcpy(planner.target_steps, target_steps, sizeof planner.target_steps);
+    planner.last = *g;
+    planner.corner = true;
+}
+
+static void find_delta(double delta[AXIS_COUNT], const stepper_move_t *move) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         delta[axis] = move->target[axis] - planner.target[axis];
     }
+}
+
+static float corner_before(const geometry_t *g, const stepper_move_t *move) {
+    return planner.corner ? geometry_corner_speed2(&planner.last, g, move->corner) : 0.0f;
+}
+
+static bool ends_where_it_starts(const int32_t target_steps[AXIS_COUNT]) {
+    return memcmp(target_steps, planner.target_steps, sizeof planner.target_steps) == 0;
+}
+
+void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
+    memcpy(planner.commanded, move->target, sizeof planner.commanded);
+    if (ends_where_it_starts(target_steps)) {
+        return;
+    }
+    double delta[AXIS_COUNT];
+    find_delta(delta, move);
     geometry_t g;
     geometry_line(&g, delta, move);
     geometry_even_out(&g);
-    block_t *block = next_slot();
-    *block = (block_t){.kind = BLOCK_LINE};
-    float corner2 = planner.corner ? geometry_corner_speed2(&planner.last, &g, move->corner) : 0.0f;
-    fill_move(block, &g, corner2, target_steps);
-    push_block();
+    if (!push_blended(&g, move, target_steps)) {
+        block_t *block = next_slot();
+        *block = (block_t){.kind = BLOCK_LINE};
+        fill_move(block, &g, corner_before(&g, move), target_steps);
+        push_block();
+    }
+    follow_move(&g, move, target_steps);
+    planner.blends = move->corner == STEPPER_CORNER_BLEND;
+}
 
-    memcpy(planner.target, move->target, sizeof planner.target);
-    memcpy(planner.target_steps, target_steps, sizeof planner.target_steps);
-    planner.last = g;
-    planner.corner = true;
+void planner_push_arc(const arc_t *arc, const stepper_move_t *move,
+                      const int32_t target_steps[AXIS_COUNT]) {
+    memcpy(planner.commanded, move->target, sizeof planner.commanded);
+    if (ends_where_it_starts(target_steps) && arc_is_below_a_step(arc)) {
+        return;
+    }
+    double delta[AXIS_COUNT];
+    find_delta(delta, move);
+    geometry_t g;
+    arc_geometry(&g, arc, delta, move);
+    block_t *block = next_slot();
+    *block = (block_t){.kind = BLOCK_ARC};
+    arc_fill(block, arc);
+    fill_move(block, &g, corner_before(&g, move), target_steps);
+    push_block();
+    follow_move(&g, move, target_steps);
+    planner.blends = false;
 }
 
 void planner_push_dwell(uint32_t ticks) {

@@ -25,7 +25,7 @@ typedef struct {
 // Lengths and speeds along a move count all four axes, in units (mm and degrees) and units/s.
 typedef struct {
     block_kind_t kind : 4;
-    uint32_t plane : 3; // of an arc: index of planner_planes
+    uint32_t plane : 3; // of an arc: arc_plane_of()
     bool binds : 1;     // its entry cap is below what the block before it may do anyway
     uint8_t span_jerk;  // limits between the binding entry before this one and here
     uint16_t span_acceleration;
@@ -47,8 +47,11 @@ typedef struct {
                     uint32_t lead_in, lead_out;
                 } line;
                 struct {
-                    float centre[2]; // units from the start, along the axes of the plane
-                    float turns;     // > 0 counter-clockwise
+                    int32_t centre[2]; // 2^-scale units from the start, along the axes of the plane
+                    uint32_t scale : 5;
+                    uint32_t clockwise : 1;
+                    uint32_t several : 1; // turns count in 2^-18 of one, not in 2^-25
+                    uint32_t turns : 25;
                 } arc;
             };
         } move;
@@ -105,9 +108,15 @@ void planner_set_override(const planner_override_t *override);
 // The most that is allowed anywhere on the move now, units/s. Contexts: main, governor.
 float planner_top_speed(const block_t *move);
 
+// Slots that may be filled. One is kept for the blend with the next line, if the last line allows one.
+uint32_t planner_free(void);
+
 // Puts a move, whose target has been checked, behind all others and re-plans the ring. A move
 // shorter than half a step of each axis is not queued: its way is part of the next one.
 void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
+typedef struct arc arc_t; // stepper/arc.h
+void planner_push_arc(const arc_t *arc, const stepper_move_t *move,
+                      const int32_t target_steps[AXIS_COUNT]);
 void planner_push_dwell(uint32_t ticks);
 void planner_push_pins(uint32_t set, uint32_t clear);
 

@@ -132,15 +132,24 @@ typedef struct {
 err_t stepper_move(const stepper_move_t *move);
 
 // An arc in the plane of two axes; the other axes go along in proportion to the angle (helix). The end
-// point is move.target; what the radius there differs from the start's is spread over the arc.
+// point is move.target. If the radius there is a little different from that at the start, as it is with
+// rounded coordinates, it changes evenly along the arc.
 typedef struct {
     stepper_move_t move;
     axis_id_t plane[2]; // counter-clockwise is from the first to the second axis: X Y, Z X or Y Z
     double centre[2];   // mm from the start, along these axes
-    double sweep;       // radians, > 0 counter-clockwise; beyond 2 pi: several turns
+    bool clockwise;
+    // The arc passes its end point turns - 1 times before it ends there; if it ends where it started, it is
+    // this many full circles. 1..STEPPER_ARC_TURNS_MAX.
+    uint32_t turns;
 } stepper_arc_t;
 
-// Errors: as stepper_move(); an arc is inside the soft limits if its whole way is.
+#define STEPPER_ARC_TURNS_MAX 100u
+// Coordinates of an arc that were rounded to 0.01 mm can be this far off its circle.
+#define STEPPER_ARC_ROUNDING_MM 0.0283
+
+// Errors: as stepper_move(), for all of the arc's way; no radius, radius too large, and an end point that is
+// off the circle by more than STEPPER_ARC_ROUNDING_MM and a thousandth of the radius, or by 100 times that.
 err_t stepper_arc(const stepper_arc_t *arc);
 
 // Waits at standstill. 0..STEPPER_DWELL_MAX_MS.

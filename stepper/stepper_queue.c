@@ -1,49 +1,101 @@
 // Entries of the motion queue, checked before they are queued. Context: main loop.
 #include <math.h>
 
+#include "stepper/arc.h"
 #include "stepper/axis.h"
 #include "stepper/machine.h"
 #include "stepper/planner.h"
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
 
-static err_t check_target(const stepper_move_t *move, int32_t steps[AXIS_COUNT]) {
-    double from[AXIS_COUNT];
-    planner_target(from);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        double target = move->target[axis];
-        steps[axis] = 0;
-        if (!axes[axis].configured) {
-            if (target != from[axis]) {
-                return machine_check_axis(axis);
-            }
-            continue;
-        }
-        // Half a step of tolerance: a limit that is no whole step must not refuse its own value.
-        double tolerance = 0.5 / axes[axis].config.steps_per_unit;
-        if (axes[axis].limited && target != from[axis] &&
-            (target < axes[axis].min - tolerance || target > axes[axis].max + tolerance)) {
-            return err_raise(ERR_SOFT_LIMIT, "%c", STEPPER_AXIS_LETTERS[axis]);
-        }
-        if (!axis_to_steps(axis, target, &steps[axis])) {
-            return err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
-        }
+// Half a step of tolerance: a limit that is no whole step must not refuse its own value.
+static err_t check_reach(axis_id_t axis, double low, double high) {
+    double tolerance = 0.5 / axes[axis].config.steps_per_unit;
+    if (axes[axis].limited &&
+        (low < axes[axis].min - tolerance || high > axes[axis].max + tolerance)) {
+        return err_raise(ERR_SOFT_LIMIT, "%c", STEPPER_AXIS_LETTERS[axis]);
+    }
+    int32_t steps;
+    if (!axis_to_steps(axis, low, &steps) || !axis_to_steps(axis, high, &steps)) {
+        return err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
     }
     return ERR_OK;
 }
 
-err_t stepper_move(const stepper_move_t *move) {
+static err_t check_target(const stepper_move_t *move, const double from[AXIS_COUNT],
+                          int32_t steps[AXIS_COUNT]) {
+    err_t err = ERR_OK;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT && err == ERR_OK; axis++) {
+        double target = move->target[axis];
+        steps[axis] = 0;
+        if (!axes[axis].configured) {
+            err = target != from[axis] ? machine_check_axis(axis) : ERR_OK;
+            continue;
+        }
+        if (target != from[axis]) {
+            err = check_reach(axis, target, target);
+        }
+        if (err == ERR_OK && !axis_to_steps(axis, target, &steps[axis])) {
+            err = err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
+        }
+    }
+    return err;
+}
+
+static err_t check_move(void) {
     err_t err = machine_check_queue();
-    if (err != ERR_OK) {
-        return err;
+    if (err == ERR_OK && !machine.position_known) {
+        err = err_raise(ERR_POSITION_UNKNOWN, NULL);
     }
-    if (!machine.position_known) {
-        return err_raise(ERR_POSITION_UNKNOWN, NULL);
-    }
+    return err;
+}
+
+err_t stepper_move(const stepper_move_t *move) {
+    double from[AXIS_COUNT];
     int32_t steps[AXIS_COUNT];
-    err = check_target(move, steps);
+    err_t err = check_move();
+    if (err == ERR_OK) {
+        planner_target(from);
+        err = check_target(move, from, steps);
+    }
     if (err == ERR_OK) {
         planner_push_line(move, steps);
+        hal_governor_request();
+    }
+    return err;
+}
+
+// The way of the arc between its ends, also of a whole circle.
+static err_t check_arc(const arc_t *arc) {
+    err_t err = ERR_OK;
+    for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
+        double low, high;
+        arc_extent(arc, n, &low, &high);
+        err = check_reach(arc->plane[n], low, high);
+    }
+    return err;
+}
+
+err_t stepper_arc(const stepper_arc_t *wanted) {
+    double from[AXIS_COUNT];
+    int32_t steps[AXIS_COUNT];
+    arc_t arc;
+    err_t err = check_move();
+    for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
+        err = machine_check_axis(wanted->plane[n]);
+    }
+    if (err == ERR_OK) {
+        planner_target(from);
+        err = check_target(&wanted->move, from, steps);
+    }
+    if (err == ERR_OK) {
+        err = arc_measure(&arc, wanted, from);
+    }
+    if (err == ERR_OK) {
+        err = check_arc(&arc);
+    }
+    if (err == ERR_OK) {
+        planner_push_arc(&arc, &wanted->move, steps);
         hal_governor_request();
     }
     return err;

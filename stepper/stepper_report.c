@@ -64,7 +64,7 @@ int stepper_active(void) {
 }
 
 uint32_t stepper_blocks_free(void) {
-    return machine.initialized ? ring_free(&blocks.ring) : 0;
+    return machine.initialized ? planner_free() : 0;
 }
 
 uint32_t stepper_status_bits(void) {

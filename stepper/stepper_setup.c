@@ -43,6 +43,7 @@ static void reset_motion(void) {
     planner_set_position(zero);
     geometry_settings = (geometry_settings_t){
         .deviation = (float)STEPPER_JUNCTION_DEVIATION_MM,
+        .arc_tolerance = (float)machine.config.arc_tolerance_mm,
         .jerk = (float)STEPPER_JERK_DEFAULT,
     };
     stepper_override(100, 100);

@@ -99,7 +99,7 @@ static void test_offsets(void) {
 }
 
 static void test_refusals_name_their_reason(void) {
-    check_refused("X10", "No motion mode - start with G0 or G1");
+    check_refused("X10", "No motion mode - start with G0, G1, G2 or G3");
     check_refused("G1 X10", "Feedrate not set (give F once, in mm/min)");
     check_refused("G1X10Y0X5 F100", "X given twice");
     check_refused("G1 X F100", "Missing value for X");
@@ -108,7 +108,10 @@ static void test_refusals_name_their_reason(void) {
     check_refused("G1 X1 F0.0009", "F: 0.0009 is invalid (valid is 0.001 to 1e+09)");
     check_refused("G1 X1 F-5", "F: -5 is invalid (valid is 0.001 to 1e+09)");
     check_refused("G1 X1 E5 F100", "Unknown parameter E");
-    check_refused("G2 X1", "Unsupported code G2");
+    check_refused("G5 X1", "Unsupported code G5");
+    check_refused("G1.1 X1", "Unsupported code G1.1");
+    check_refused("G1.00001 X1", "Unsupported code G1.00001");
+    check_refused("G90.1", "Unsupported code G90.1");
     check_refused("G92.1", "Unsupported code G92.1");
     check_refused("G-1", "Unsupported code G-1");
     check_refused("M30", "Unsupported code M30");
@@ -119,7 +122,7 @@ static void test_refusals_name_their_reason(void) {
     check_refused("G4 P1 X1", "Motion, G4, G28, G92, M3 and M5 need a line each");
     check_refused("M3 X1", "Motion, G4, G28, G92, M3 and M5 need a line each");
     check_refused("M3 M5", "Motion, G4, G28, G92, M3 and M5 need a line each");
-    check_refused("G0 X1 P5", "P only valid with G4");
+    check_refused("G0 X1 P5", "P only valid with one of G2, G3, G4 and G64");
     check_refused("G92", "G92 requires an axis value");
     check_refused("G28", "Homing (G28) is not available yet - use STEPPER POSITION");
     check_refused("#5", "Unexpected # in G-code");
