@@ -20,8 +20,10 @@
 #include "stepper/step_isr.h"
 
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
-#define SLICE_TICKS 100.0f
-#define SCURVE_SLICES (SCURVE_TICKS / 100u)
+#define SLICE_TICKS 100u
+#define SLICE_TICKS_MIN 20u
+// A jerk limit chooses anew after this, that is mostly after two slices.
+#define CHOSEN_TICKS 150.0f
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
 #define DWELL_SLICE_TICKS 100u
@@ -30,6 +32,8 @@
 // The governor is called when a segment ends. This is left then: more rides out longer delays of this
 // interrupt, less reacts faster.
 #define SPARE_TICKS 60u
+// No more than this is ever ahead: what is asked for acts within 2 ms.
+#define AHEAD_TICKS 200u
 #define PROGRESS_ONE 18446744073709551616.0f  // 2^64
 #define PROGRESS_MOST 18446742974197923840.0f // the float below
 
@@ -44,17 +48,18 @@ static struct {
     bool idle_off;
     bool drivers_on;
 
-    const block_t *block;   // being executed, NULL: none
-    uint32_t dwell_left;    // ticks, of a dwell
-    uint64_t progress;      // of a move, in 2^-64 of its length
-    float per_length;       // 2^64 / length of a move
-    float top_speed;        // allowed in it, units/s
-    uint32_t overrides;     // for which that was found
-    float speed;            // along the path now, units/s
-    float acceleration;     // of the piece that led here, units/s^2
-    uint32_t chosen_slices; // for which a jerk limit has chosen it
-    float pending_ticks;    // computed way that has no segment yet
-    float pending_from;     // speed at its beginning
+    const block_t *block; // being executed, NULL: none
+    uint32_t dwell_left;  // ticks, of a dwell
+    uint64_t progress;    // of a move, in 2^-64 of its length
+    float per_length;     // 2^64 / length of a move
+    float top_speed;      // allowed in it, units/s
+    uint32_t overrides;   // for which that was found
+    float speed;          // along the path now, units/s
+    float acceleration;   // of the piece that led here, units/s^2
+    float chosen_ticks;   // since a jerk limit has chosen it
+    bool choose_again;    // whatever that is
+    float pending_ticks;  // computed way that has no segment yet
+    float pending_from;   // speed at its beginning
 } governor;
 
 static float lesser(float a, float b) {
@@ -102,6 +107,13 @@ static void start_block(const block_t *block) {
     }
 }
 
+// At rest, from where any acceleration within the jerk limit may be chosen.
+static void stand(void) {
+    governor.acceleration = 0.0f;
+    governor.chosen_ticks = SCURVE_TICKS;
+    governor.choose_again = true;
+}
+
 static void finish_block(void) {
     governor.block = NULL;
     governor.executed = governor.executed + 1;
@@ -119,8 +131,7 @@ static void follow_motors(void) {
 static void drop_blocks(void) {
     governor.block = NULL;
     governor.speed = 0.0f;
-    governor.acceleration = 0.0f;
-    governor.chosen_slices = 0;
+    stand();
     governor.pending_ticks = 0.0f;
     governor.stopping = false;
     planner_release_all();
@@ -139,8 +150,7 @@ static float pass_end(float left, float v1, float dt) {
     bool at_rest = planner_exit_speed2() <= 0.0f;
     go_on(ticks, at_rest ? 0.0f : end_speed);
     if (at_rest) {
-        governor.acceleration = 0.0f;
-        governor.chosen_slices = 0;
+        stand();
     }
 
     if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
@@ -160,7 +170,7 @@ static profile_t profile_here(float left) {
     if (governor.overrides != blocks.overrides) {
         governor.overrides = blocks.overrides;
         governor.top_speed = planner_top_speed(governor.block);
-        governor.chosen_slices = 0;
+        governor.choose_again = true;
     }
     return (profile_t){
         .block = governor.block,
@@ -176,7 +186,7 @@ static profile_t profile_here(float left) {
 static float next_speed(float left, float *ticks) {
     profile_t here = profile_here(left);
     if (governor.block->move.jerk <= 0.0f) {
-        governor.chosen_slices = 0;
+        governor.choose_again = true;
         float v1 = profile_next_speed(&here, ticks);
         float acceleration = governor.block->move.acceleration;
         governor.acceleration = v1 > here.speed   ? acceleration
@@ -184,16 +194,16 @@ static float next_speed(float left, float *ticks) {
                                                   : 0.0f;
         return v1;
     }
-    if (governor.chosen_slices == 0) {
-        governor.acceleration = scurve_acceleration(&here);
-        governor.chosen_slices = SCURVE_SLICES;
+    if (governor.choose_again || governor.chosen_ticks >= CHOSEN_TICKS) {
+        governor.acceleration = scurve_acceleration(&here, governor.chosen_ticks * TICK_S);
+        governor.chosen_ticks = 0.0f;
+        governor.choose_again = false;
     }
     return scurve_speed(governor.speed, governor.acceleration, *ticks * TICK_S);
 }
 
 // One slice of a move, through as many blocks as it touches and the segment ring has room for.
-static void advance_move(void) {
-    float ticks = SLICE_TICKS;
+static void advance_move(float ticks) {
     while (ticks >= 1.0f && segment_writer_has_room()) {
         float piece = ticks;
         float left = remaining();
@@ -203,21 +213,23 @@ static void advance_move(void) {
         float advance = lesser(way * governor.per_length, PROGRESS_MOST);
         uint64_t progress = governor.progress + (uint64_t)advance;
         if (way >= left || progress < governor.progress) {
-            ticks -= pass_end(left, v1, dt);
+            float used = pass_end(left, v1, dt);
+            ticks -= used;
+            governor.chosen_ticks += used;
             if (governor.block == NULL) {
                 return; // at rest
             }
             continue;
         }
         governor.progress = progress;
+        governor.chosen_ticks += piece;
         go_on(piece, v1);
         int64_t target[AXIS_COUNT];
         path_at(governor.progress, target);
         bool stopped = (governor.stopping || governor.holding) && v1 <= 0.0f;
         write_way(target, stopped);
         if (stopped) {
-            governor.acceleration = 0.0f;
-            governor.chosen_slices = 0;
+            stand();
             if (governor.stopping) {
                 drop_blocks();
             }
@@ -225,7 +237,6 @@ static void advance_move(void) {
         }
         ticks -= piece;
     }
-    governor.chosen_slices -= governor.chosen_slices > 0;
 }
 
 static void advance_dwell(void) {
@@ -249,7 +260,7 @@ static void switch_drivers(bool on) {
 }
 
 // Makes the next segment or two. False if there is nothing to do.
-static bool advance(void) {
+static bool advance(uint32_t slice_ticks) {
     const block_t *front = planner_front();
     if (governor.stopping && governor.speed <= 0.0f) {
         drop_blocks();
@@ -277,7 +288,7 @@ static bool advance(void) {
     case BLOCK_LINE:
     case BLOCK_ARC:
     case BLOCK_BLEND:
-        advance_move();
+        advance_move((float)slice_ticks);
         break;
     case BLOCK_DWELL:
         advance_dwell();
@@ -290,13 +301,23 @@ static bool advance(void) {
     return true;
 }
 
+// So long that what is ahead stays within AHEAD_TICKS.
+static uint32_t slice_ticks(void) {
+    uint32_t ahead = segment_writer_ahead_ticks();
+    if (ahead + SLICE_TICKS <= AHEAD_TICKS) {
+        return SLICE_TICKS;
+    }
+    return ahead + SLICE_TICKS_MIN <= AHEAD_TICKS ? AHEAD_TICKS - ahead : SLICE_TICKS_MIN;
+}
+
 // The tick may be running although there is nothing to execute. A motion is shown to it only when there is
 // enough to go on with: its first segments can be as short as a tick.
 void governor_fill(uint32_t ticks) {
     bool starting = ring_used(&segments.ring) == 0;
     bool more = governor.armed;
     while (more && segment_writer_spare_ticks() < ticks && segment_writer_has_room()) {
-        more = advance();
+        bool reacting = ticks <= SPARE_TICKS;
+        more = advance(reacting ? slice_ticks() : SLICE_TICKS);
         if (!starting) {
             segment_writer_publish();
         }
@@ -323,6 +344,7 @@ void governor_reset(const int32_t steps[AXIS_COUNT]) {
     governor_pins_t pins = governor.pins;
     memset(&governor, 0, sizeof governor);
     governor.pins = pins;
+    stand();
     jog_drop();
     segment_writer_reset(steps);
     path_stand(steps);
@@ -357,7 +379,7 @@ void governor_stop(void) {
         jog_stop();
     } else {
         governor.stopping = governor_working();
-        governor.chosen_slices = 0;
+        governor.choose_again = true;
     }
 }
 
@@ -388,11 +410,9 @@ void governor_position(int32_t steps[AXIS_COUNT]) {
 }
 
 void governor_hold(bool hold) {
-    governor.holding = hold;
-    governor.chosen_slices = 0;
-    if (hold) {
-        jog_stop();
-    }
+    jog_stop();
+    governor.holding = hold && !governor.stopping && !jog_active();
+    governor.choose_again = true;
 }
 
 bool governor_holding(void) {

@@ -21,10 +21,11 @@ static struct {
     jog_request_t now, next;
     block_t line; // the limits, as profile.c reads them
     int64_t position[AXIS_COUNT];
-    bool negative;          // direction of the motion
-    float speed;            // units/s, >= 0
-    float acceleration;     // units/s^2, of the last slice
-    uint32_t chosen_slices; // for which a jerk limit has chosen it
+    bool negative;      // direction of the motion
+    float speed;        // units/s, >= 0
+    float acceleration; // units/s^2, of the last slice
+    float chosen_ticks; // since a jerk limit has chosen it
+    bool choose_again;  // whatever that is
 } jog;
 
 static void take(const jog_request_t *request) {
@@ -45,9 +46,10 @@ void jog_start(const jog_request_t *request) {
         }
         jog.speed = 0.0f;
         jog.acceleration = 0.0f;
+        jog.chosen_ticks = SCURVE_TICKS;
         planner_release_all();
     }
-    jog.chosen_slices = 0;
+    jog.choose_again = true;
     jog.changing_axis = jog.active && request->axis != jog.now.axis;
     jog.stopping = jog.changing_axis;
     if (jog.changing_axis) {
@@ -59,7 +61,7 @@ void jog_start(const jog_request_t *request) {
 }
 
 void jog_stop(void) {
-    jog.chosen_slices = 0;
+    jog.choose_again = true;
     jog.stopping = true;
     jog.changing_axis = false;
 }
@@ -92,7 +94,7 @@ static float braking_distance(void) {
 static void stand(void) {
     jog.speed = 0.0f;
     jog.acceleration = 0.0f;
-    jog.chosen_slices = 0;
+    jog.chosen_ticks = SCURVE_TICKS;
     if (jog.stopping && !jog.changing_axis) {
         segment_writer_settle();
         jog.active = false;
@@ -127,11 +129,12 @@ static float next_speed(const profile_t *now, float *ticks) {
     if (jog.now.jerk <= 0.0f) {
         return profile_next_speed(now, ticks);
     }
-    if (jog.chosen_slices == 0) {
-        jog.acceleration = scurve_acceleration(now);
-        jog.chosen_slices = SCURVE_TICKS / 100u;
+    if (jog.choose_again || jog.chosen_ticks >= SCURVE_TICKS) {
+        jog.acceleration = scurve_acceleration(now, jog.chosen_ticks * TICK_S);
+        jog.chosen_ticks = 0.0f;
+        jog.choose_again = false;
     }
-    jog.chosen_slices--;
+    jog.chosen_ticks += *ticks;
     return scurve_speed(jog.speed, jog.acceleration, *ticks * TICK_S);
 }
 

@@ -34,6 +34,7 @@ static const float alike[] = {0.94f, 0.8f, 0.5f};
 // made up for on the way.
 #define PLANNED_ACCELERATION 0.99f
 #define PLANNED_JERK 0.97f
+#define PLANNED_CAP2 0.98f // of the square of the speed
 
 #define CREEP 0.4f // units/s
 #define HAIR 1.01f
@@ -41,8 +42,7 @@ static const float alike[] = {0.94f, 0.8f, 0.5f};
 // What follows from the limits of a block; the next one often has the same.
 static struct {
     float acceleration, jerk, top;
-    float step; // change of the acceleration in a slice
-    v2_t top2;  // just above the square of `top`
+    v2_t top2; // just above the square of `top`
     ramp_t ramp;
     int32_t within; // how far ahead a bound can matter at `top`, as `way`
 } limits;
@@ -79,8 +79,9 @@ static int32_t reach(const ramp_t *ramp, float top) {
     return whole_way(ramp_distance(ramp, top, 0.0f) + top * (HALF_SLICE_S + taken_back_s));
 }
 
+// Caps above this are no bound for the speed.
 static v2_t v2_above(float speed) {
-    float units = speed * speed * blocks.v2_per_unit + 1.0f;
+    float units = speed * speed * (blocks.v2_per_unit * (1.0f / PLANNED_CAP2)) + 1.0f;
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
@@ -101,7 +102,6 @@ static void take_limits(choice_t *choice) {
         !same(block->move.jerk, limits.jerk)) {
         limits.acceleration = block->move.acceleration;
         limits.jerk = block->move.jerk;
-        limits.step = limits.jerk * SLICE_S;
         ramp_set(&limits.ramp, PLANNED_ACCELERATION * limits.acceleration,
                  PLANNED_JERK * limits.jerk);
         limits.top = -1.0f;
@@ -127,11 +127,12 @@ static float crest(const choice_t *choice, float acceleration) {
 }
 
 // The highest acceleration that jerk, acceleration and top speed allow.
-static void choose_freely(choice_t *choice) {
+static void choose_freely(choice_t *choice, float elapsed_s) {
     const profile_t *now = choice->now;
     float full = limits.acceleration;
-    float most = now->acceleration + limits.step;
-    float least = now->acceleration - limits.step;
+    float step = limits.jerk * elapsed_s;
+    float most = now->acceleration + step;
+    float least = now->acceleration - step;
     if (most > full) {
         most = greater(full, least);
     } else if (least < -full) {
@@ -243,7 +244,7 @@ static void meet_bounds(choice_t *choice) {
             continue;
         }
         slower = cap;
-        float speed2 = (float)cap * blocks.v2_unit;
+        float speed2 = (float)cap * (PLANNED_CAP2 * blocks.v2_unit);
         if (group_speed2 < 0.0f || speed2 < alike_speed2) {
             if (group_speed2 >= 0.0f) {
                 meet(choice, group_distance, sqrtf(group_speed2));
@@ -264,10 +265,10 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
-float scurve_acceleration(const profile_t *now) {
+float scurve_acceleration(const profile_t *now, float elapsed_s) {
     choice_t choice = {.now = now};
     take_limits(&choice);
-    choose_freely(&choice);
+    choose_freely(&choice, elapsed_s);
     meet_bounds(&choice);
 
     float v1 = now->speed + choice.chosen * SLICE_S;
@@ -286,7 +287,7 @@ float scurve_acceleration(const profile_t *now) {
     if (v1 < CREEP && choice.chosen < 0.0f) {
         // What is left in the end may be a hair longer than planned: do not get slower before.
         float creep = now->top > 0.0f ? lesser(now->speed, CREEP) : 0.0f;
-        if (v1 < creep || v1 < limits.step * SLICE_S) {
+        if (v1 < creep || v1 < limits.jerk * (SLICE_S * SLICE_S)) {
             return (creep - now->speed) * (1.0f / SLICE_S);
         }
     }

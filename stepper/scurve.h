@@ -4,11 +4,12 @@
 
 #include "stepper/profile.h"
 
-// An acceleration holds for this long. Shorter follows the limits more closely, and costs more.
-#define SCURVE_TICKS 200u
+// An acceleration is meant to hold for this long. Shorter follows the limits more closely, and costs more.
+#define SCURVE_TICKS 200.0f
 
-// The acceleration for the next SCURVE_TICKS. now->acceleration is the one that ends here.
-float scurve_acceleration(const profile_t *now);
+// The acceleration for the next SCURVE_TICKS. now->acceleration is the one that ends here, after
+// `elapsed_s`.
+float scurve_acceleration(const profile_t *now, float elapsed_s);
 
 // The speed after `dt` seconds of it.
 float scurve_speed(float speed, float acceleration, float dt);

@@ -106,6 +106,13 @@ uint32_t segment_writer_spare_ticks(void) {
     return writer.end_ticks - oldest->end_ticks;
 }
 
+uint32_t segment_writer_ahead_ticks(void) {
+    if (ring_used(&segments.ring) + writer.unpublished == 0) {
+        return 0;
+    }
+    return segment_writer_spare_ticks() + segments.slots[segments.ring.take_slot].ticks;
+}
+
 bool segment_writer_has_room(void) {
     return ring_free(&segments.ring) >= writer.unpublished + ROOM;
 }

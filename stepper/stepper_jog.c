@@ -6,6 +6,7 @@
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/machine.h"
+#include "stepper/planner.h"
 
 static err_t check(axis_id_t axis) {
     err_t err = machine_check_initialized();
@@ -21,7 +22,7 @@ static err_t check(axis_id_t axis) {
     if (machine_stopping()) {
         return err_raise(ERR_STEPPER_STOPPING, NULL);
     }
-    if (!jog_active() && !machine_at_rest()) {
+    if (!jog_active() && ring_used(&blocks.ring) > 0) {
         return err_raise(ERR_JOG_WHILE_ACTIVE, NULL);
     }
     return ERR_OK;
