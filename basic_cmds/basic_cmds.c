@@ -89,6 +89,11 @@ static const basic_arg_spec_t jerk_args[] = {
     AXIS_JERK_ARG("a", "deg/s^3"),
 };
 
+static const basic_arg_spec_t arc_legacy_args[] = {
+    {"on", BASIC_ARG_INTEGER, .min = 0, .max = 1,
+     .help = "1: the A word of G2 and G3 is ignored, 0: A turns along with the arc"},
+};
+
 static const basic_arg_spec_t run_args[] = {
     {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1, .help = "the same as the next"},
     {"mode", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 1,
@@ -133,7 +138,8 @@ static const basic_arg_spec_t gcode_args[] = {
 
 static const basic_arg_spec_t peek_args[] = {
     {"what", BASIC_ARG_CHOICE, .choices = PEEK_CHOICES,
-     .help = "work position of an axis, ACTIVE (-1, 0, 1), STATUS bits or free BUFFER slots"},
+     .help = "work position of an axis, ACTIVE (-1, 0, 1), STATUS bits, free BUFFER slots "
+             "or SPEED along the path in mm/min"},
 };
 
 #define ARGS(spec) .args = (spec), .arg_count = COUNT_OF_ARRAY(spec)
@@ -148,6 +154,8 @@ const basic_command_t basic_cmds_commands[] = {
      "Chooses S-curves or trapezoids for what is queued from now on"},
     {"STEPPER JERK", ARGS(jerk_args), configure_jerk,
      "Sets how fast the acceleration of S-curves may change; for what is queued from now on"},
+    {"STEPPER ARC LEGACY", ARGS(arc_legacy_args), configure_arc_legacy,
+     "Chooses what A means on an arc"},
     {"STEPPER RUN", ARGS(run_args), control_run, "Turns drivers on and executes what is queued"},
     {"STEPPER CLEAR", .run = control_clear, .help = "Empties the queue while nothing moves"},
     {"STEPPER STOP", .run = control_stop,

@@ -1,4 +1,4 @@
-// STEPPER INIT, AXIS, LIMITS, SPINDLE, JUNCTION, SCURVE, JERK. Context: main loop.
+// STEPPER INIT, AXIS, LIMITS, SPINDLE, JUNCTION, SCURVE, JERK, ARC LEGACY. Context: main loop.
 #include "basic_cmds/configure.h"
 
 #include "gcode/gcode.h"
@@ -77,4 +77,13 @@ err_t configure_jerk(const basic_arg_t *args, size_t count) {
         axis_jerk[axis] = args[1 + axis].number;
     }
     return stepper_jerk(args[0].number, axis_jerk);
+}
+
+err_t configure_arc_legacy(const basic_arg_t *args, size_t count) {
+    (void)count;
+    if (stepper_active() < 0) {
+        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    }
+    gcode_set_arc_legacy(args[0].integer != 0);
+    return ERR_OK;
 }

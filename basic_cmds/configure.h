@@ -11,6 +11,7 @@ err_t configure_spindle(const basic_arg_t *args, size_t count);
 err_t configure_junction(const basic_arg_t *args, size_t count);
 err_t configure_scurve(const basic_arg_t *args, size_t count);
 err_t configure_jerk(const basic_arg_t *args, size_t count);
+err_t configure_arc_legacy(const basic_arg_t *args, size_t count);
 
 // Where each argument stands in the row's spec.
 enum { INIT_TOLERANCE, INIT_BUFFER, INIT_ESTOP, INIT_KEEP, INIT_ARGS };

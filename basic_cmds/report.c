@@ -72,6 +72,25 @@ static void print_profile(const stepper_status_t *status) {
     basic_printf("\n");
 }
 
+static void print_path_mode(void) {
+    gcode_path_t path = gcode_path();
+    switch (path.corner) {
+    case STEPPER_CORNER_EXACT:
+        basic_printf("Path mode: G61 exact path");
+        break;
+    case STEPPER_CORNER_STOP:
+        basic_printf("Path mode: G61.1 exact stop");
+        break;
+    case STEPPER_CORNER_CONTINUOUS:
+        basic_printf("Path mode: G64");
+        break;
+    case STEPPER_CORNER_BLEND:
+        basic_printf("Path mode: G64 P%g", path.blend_mm);
+        break;
+    }
+    basic_printf(", A on arcs: %s\n", gcode_arc_legacy() ? "ignored" : "turns along");
+}
+
 err_t report_status(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
@@ -89,6 +108,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
     print_profile(&status);
+    print_path_mode();
     bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
@@ -109,6 +129,10 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
             return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
         *result = (basic_value_t){.type = BASIC_FLOAT, .number = work_position(axis)};
+        return ERR_OK;
+    }
+    if (what == PEEK_SPEED) {
+        *result = (basic_value_t){.type = BASIC_FLOAT, .number = stepper_speed()};
         return ERR_OK;
     }
     const int64_t values[] = {stepper_active(), stepper_status_bits(), stepper_blocks_free()};

@@ -7,7 +7,8 @@
 err_t report_status(const basic_arg_t *args, size_t count);
 
 // PEEK(STEPPER what); PEEK_CHOICES says what there is, in the order of the handler's cases.
-#define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER"
+#define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER|SPEED"
+#define PEEK_SPEED (AXIS_COUNT + 3)
 err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result);
 
 #endif

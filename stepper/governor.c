@@ -427,6 +427,10 @@ bool governor_stopping(void) {
     return governor.stopping;
 }
 
+float governor_speed(void) {
+    return governor.speed;
+}
+
 // In this order: what is gone when it is looked for has become segments before.
 bool governor_working(void) {
     return governor.armed &&

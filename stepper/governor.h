@@ -49,6 +49,7 @@ void governor_position(int32_t steps[AXIS_COUNT]);
 bool governor_armed(void);
 bool governor_stopping(void);
 bool governor_holding(void);
+float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow

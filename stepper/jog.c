@@ -74,6 +74,10 @@ bool jog_active(void) {
     return jog.active;
 }
 
+float jog_speed(void) {
+    return jog.speed;
+}
+
 // Units to the target in the direction of the motion; below 0: it lies behind.
 static float left(void) {
     int64_t distance = jog.now.target * STEP_ONE - jog.position[jog.now.axis];

@@ -27,6 +27,8 @@ void jog_drop(void);
 // A jog is under way. Any context.
 bool jog_active(void);
 
+float jog_speed(void); // units/s. Any context
+
 // One more slice. Context: governor.
 void jog_advance(void);
 

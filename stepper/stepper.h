@@ -202,6 +202,9 @@ bool stepper_axis_limits(axis_id_t axis, double *min_mm, double *max_mm);
 int32_t stepper_position_steps(axis_id_t axis);
 double stepper_position(axis_id_t axis);
 
+// Speed along the path now, units/min; 2 ms ahead of the motors.
+double stepper_speed(void);
+
 // -1 not initialised, 1 working on the queue, 0 idle.
 int stepper_active(void);
 

@@ -56,6 +56,10 @@ bool stepper_axis_limits(axis_id_t axis, double *min_mm, double *max_mm) {
     return axes[axis].limited;
 }
 
+double stepper_speed(void) {
+    return (double)(jog_active() ? jog_speed() : governor_speed()) * 60.0;
+}
+
 int stepper_active(void) {
     if (!machine.initialized) {
         return -1;

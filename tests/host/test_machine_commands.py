@@ -34,6 +34,9 @@ def number(text: str) -> float:
     [
         ("STEPPER SCURVE", "Missing on"),
         ("STEPPER SCURVE 2", "on: 2 is invalid (valid is 0 to 1)"),
+        ("STEPPER ARC LEGACY", "Missing on"),
+        ("STEPPER ARC LEGACY 2", "on: 2 is invalid (valid is 0 to 1)"),
+        ("STEPPER ARC 1", "Unknown STEPPER subcommand"),
         ("STEPPER JERK", "Missing value"),
         ("STEPPER JERK 0", "value: 0 is invalid (valid is 0.001 to 1000000000)"),
         ("STEPPER JERK -1", "value: -1 is invalid (valid is 0.001 to 1000000000)"),
@@ -68,7 +71,17 @@ def test_what_is_refused_is_named(line: str, error: str) -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["SCURVE 1", "JERK 1", "OVERRIDE", "OVERRIDE FEED,50", "JOG X,1", "JOG STOP", "HOLD", "RESUME"],
+    [
+        "SCURVE 1",
+        "ARC LEGACY 1",
+        "JERK 1",
+        "OVERRIDE",
+        "OVERRIDE FEED,50",
+        "JOG X,1",
+        "JOG STOP",
+        "HOLD",
+        "RESUME",
+    ],
 )
 def test_nothing_works_before_init(line: str) -> None:
     """Each says so, and what to do."""
@@ -88,6 +101,21 @@ def test_status_shows_the_profile_and_init_resets_it() -> None:
     assert "Junction deviation: 0.1 mm, arc tolerance: 0.05 mm" in shown[-4].splitlines()
     assert "S-curve: OFF, Jerk: 10000.0 mm/s^3" in shown[-1].splitlines()
     assert "Junction deviation: 0.02 mm, arc tolerance: 0.05 mm" in shown[-1].splitlines()
+
+
+def test_status_shows_the_path_mode_and_init_resets_it() -> None:
+    """As G-code would say it."""
+    for code, shown in {
+        "G61": "G61 exact path",
+        "G61.1": "G61.1 exact stop",
+        "G64": "G64",
+        "G64 P0.1": "G64 P0.1",
+    }.items():
+        status = answers(*AXES, f"STEPPER GC {code}", "STEPPER ARC LEGACY 1", "STEPPER STATUS")[-1]
+        assert f"Path mode: {shown}, A on arcs: ignored" in status.splitlines()
+    again = ["STEPPER CLOSE", *INIT, "STEPPER STATUS"]
+    status = answers(*AXES, "STEPPER GC G61", "STEPPER ARC LEGACY 1", *again)[-1]
+    assert "Path mode: G64, A on arcs: turns along" in status.splitlines()
 
 
 def test_s_curves_are_driven() -> None:
