@@ -22,10 +22,8 @@ static err_t set_action(line_t *line, action_t action) {
 // Takes note that a modal group has its word.
 static err_t claim(line_t *line, group_t group) {
     static const char *const names[GROUPS] = {
-        [GROUP_MOTION] = "motion modes",
-        [GROUP_DISTANCE] = "distance modes",
-        [GROUP_PLANE] = "planes",
-        [GROUP_PATH] = "path modes",
+        [GROUP_MOTION] = "motion modes", [GROUP_DISTANCE] = "distance modes",
+        [GROUP_PLANE] = "planes",        [GROUP_PATH] = "path modes",
         [GROUP_CENTRE] = "centre modes",
     };
     if ((line->groups >> group) & 1) {
@@ -242,8 +240,9 @@ static err_t check_action(line_t *line) {
         if (line->axes == 0) {
             return err_raise(ERR_GCODE_OFFSET_AXIS, NULL);
         }
-        return curved || ((line->groups >> GROUP_MOTION) & 1) ? err_raise(ERR_GCODE_ONE_ACTION, NULL)
-                                                            : ERR_OK;
+        return curved || ((line->groups >> GROUP_MOTION) & 1)
+                   ? err_raise(ERR_GCODE_ONE_ACTION, NULL)
+                   : ERR_OK;
     case ACTION_HOME:
         return err_raise(ERR_GCODE_NO_HOMING, NULL);
     case ACTION_MOVE:

@@ -27,7 +27,14 @@ typedef enum {
 } action_t;
 
 // Modal groups: of each a line may have one word.
-typedef enum { GROUP_MOTION, GROUP_DISTANCE, GROUP_PLANE, GROUP_PATH, GROUP_CENTRE, GROUPS } group_t;
+typedef enum {
+    GROUP_MOTION,
+    GROUP_DISTANCE,
+    GROUP_PLANE,
+    GROUP_PATH,
+    GROUP_CENTRE,
+    GROUPS
+} group_t;
 
 typedef struct {
     action_t action;
@@ -36,14 +43,15 @@ typedef struct {
     modal_t modal;   // as it will be after the line
     uint32_t axes;   // bit n: axis n has a word
     double axis[AXIS_COUNT];
-    uint32_t centres;  // bit n: the centre's offset along axis n (I, J, K) has a word
+    uint32_t centres; // bit n: the centre's offset along axis n (I, J, K) has a word
     double centre[AXIS_A];
     bool has_feed, has_p, has_r;
     double p, r;
 } line_t;
 
 // Reads the words of a line, beginning with the modal state before it.
-err_t gcode_words_read(line_t *line, const modal_t *before, const gcode_word_t *words, size_t count);
+err_t gcode_words_read(line_t *line, const modal_t *before, const gcode_word_t *words,
+                       size_t count);
 
 static inline bool line_is_arc(const line_t *line) {
     return line->modal.motion == MOTION_ARC_CW || line->modal.motion == MOTION_ARC_CCW;

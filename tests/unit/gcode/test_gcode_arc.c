@@ -187,7 +187,8 @@ static void test_soft_limits_hold_on_the_whole_way(void) {
     check_refused("G18 G3 X10.4 I5.2", "Z position exceeds soft limits");
     go("G18 G3 X10 I5");
     check_refused("G17 G2 X0 I-5 Z6", "Z position exceeds soft limits");
-    check_refused("G2 X0 I-5 A99999999999", "A position is too far from zero for its steps per unit");
+    check_refused("G2 X0 I-5 A99999999999",
+                  "A position is too far from zero for its steps per unit");
 }
 
 static void test_path_modes(void) {

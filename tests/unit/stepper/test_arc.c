@@ -111,7 +111,8 @@ static double follow(const ideal_t *arc, double steps) {
     }
     TEST_ASSERT_TRUE_MESSAGE(part > 0.98, "not all of the arc");
     if (most > steps) {
-        printf("%.3f steps off the arc with radius %.3f, sweep %.3f\n", most, arc->radius, arc->sweep);
+        printf("%.3f steps off the arc with radius %.3f, sweep %.3f\n", most, arc->radius,
+               arc->sweep);
     }
     TEST_ASSERT_TRUE(most <= steps);
     bench_check_positions();
