@@ -139,9 +139,12 @@ float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,
 
 // Straight lines keep a little between two blends.
 #define BLEND_SHARE 0.4999f
-// A change of speed that takes less than this is over before anything follows it.
-#define BLEND_TIME_MIN_S 0.001f
+// Part of the acceleration that may be used to turn, and what needs to be at the speed that is meant: twice
+// that speed is possible then.
 #define BLEND_TURNING_MAX 0.75f
+#define BLEND_TURNING 0.109f
+// A corner in which the speed changes by less than the acceleration does in this time is passed as it is.
+#define BLEND_TIME_MIN_S 0.001f
 
 uint32_t geometry_fraction(const geometry_t *line, float length) {
     return (uint32_t)(length / line->length * 4294967296.0f);
@@ -173,18 +176,19 @@ bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *n
     if (change2 * 0.25f < STRAIGHT_ON || change2 * 0.25f > REVERSAL) {
         return false;
     }
-    float size = sqrtf(change2);
-    *reach =
-        minimum(4.0f * tolerance_mm / size, BLEND_SHARE * minimum(before->length, next->length));
-    g->length = 2.0f * *reach;
     g->feed = blend_feed(before, next);
     geometry_project_limits(g, share);
     float top = geometry_top_speed(g);
+    float size = sqrtf(change2);
     float turning_limit =
         acceleration_along(change, size) / size; // v^2 / length at the axes' limits
     if (top < turning_limit * BLEND_TIME_MIN_S) {
         return false;
     }
+    float room = BLEND_SHARE * minimum(before->length, next->length);
+    float needed = 0.5f * top * top / (turning_limit * BLEND_TURNING);
+    *reach = minimum(minimum(4.0f * tolerance_mm / size, room), needed);
+    g->length = 2.0f * *reach;
     float fastest2 = turning_limit * g->length;
     float turning = geometry_turning_share(top * top / fastest2, BLEND_TURNING_MAX);
     g->axes_speed = minimum(g->axes_speed, sqrtf(turning * fastest2));
