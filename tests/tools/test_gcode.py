@@ -168,7 +168,7 @@ def test_the_slope_of_an_arc_is_its_derivative():
         ("G2 X10 I5 R5", "needs R or the centre"),
         ("G2 R5", "must end elsewhere"),
         ("G2 X10 R4", "R is too small"),
-        ("G2 X10 I0 J0", "the centre of the arc is its start"),
+        ("G2 X10 I0 J0", "the arc has no radius"),
         ("G2 X10 I5.6", "off the arc"),
         ("G2 X10 I5 K1", "K does not lie in the plane"),
         ("G2 X10 I5 P1.5", "whole number of turns"),
@@ -221,9 +221,9 @@ def test_exact_stops_stop_and_exact_paths_at_corners_only():
 def test_a_blend_passes_the_corner_by_acceleration():
     rows = plan(read_blocks(["G64 P0.1 G1 F6000 X20", "Y20"]), FAST)
     assert len(rows) == 3
-    # 90 degrees: it begins 0.283 mm before the corner; v^2 = A * 2 * 0.283 mm.
+    # 90 degrees: it begins 0.283 mm before the corner; v^2 = 0.75 A * 2 * 0.283 mm.
     assert rows[1].length == pytest.approx(0.5657, rel=0.001)
-    assert rows[1].nominal == pytest.approx(23.78, rel=0.001)
+    assert rows[1].nominal == pytest.approx(20.6, rel=0.001)
     assert rows[0].length == pytest.approx(20 - 0.2828, rel=0.001)
     assert rows[1].entry == rows[1].exit == pytest.approx(rows[1].nominal)
 

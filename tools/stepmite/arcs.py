@@ -12,7 +12,10 @@ PLANES = {"G17": (0, 1), "G18": (2, 0), "G19": (1, 2)}
 
 _OFFSETS = "IJK"
 _FULL_TURN = 2 * math.pi
-_SAME_PLACE_MM = 1e-9
+_SAME_PLACE_MM = 1e-6
+_ROUNDING_MM = 0.0283
+"""How far off its circle an arc is with coordinates that are rounded to 0.01 mm."""
+_RADIUS_LEAST_MM = 0.00127
 
 
 @dataclass(frozen=True)
@@ -101,7 +104,7 @@ def _centre_by_radius(
     if chord < _SAME_PLACE_MM:
         raise ValueError("an arc with R must end elsewhere")
     square = radius * radius - chord * chord / 4
-    if square < -(0.005 + 0.001 * abs(radius)) * abs(radius):
+    if chord / 2 - abs(radius) > _ROUNDING_MM:
         raise ValueError("R is too small")
     height = math.sqrt(max(0.0, square)) / chord
     if clockwise != (radius < 0):
@@ -110,11 +113,11 @@ def _centre_by_radius(
 
 
 def _check_radii(start: float, end: float) -> None:
-    """LinuxCNC's rule: 0.5 mm apart is wrong, and so is 0.005 mm if it is 0.1 % of the radius."""
+    """More than rounding is wrong if it is 0.1 % of the radius or 100 times as much."""
     apart = abs(start - end)
-    if start < _SAME_PLACE_MM:
-        raise ValueError("the centre of the arc is its start")
-    if apart > 0.5 or (apart > 0.005 and apart > 0.001 * start):
+    if start < _RADIUS_LEAST_MM or end < _RADIUS_LEAST_MM:
+        raise ValueError("the arc has no radius")
+    if apart > _ROUNDING_MM and (apart > 100 * _ROUNDING_MM or apart > 0.001 * max(start, end)):
         raise ValueError(f"the end is {apart:.3f} mm off the arc")
 
 

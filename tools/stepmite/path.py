@@ -15,7 +15,7 @@ import numpy as np
 
 from stepmite.arcs import Position
 from stepmite.gcode import Block, target_steps
-from stepmite.plan import Machine
+from stepmite.plan import BLEND_SHARE, BLEND_TIME_S, Machine
 from stepmite.trace import Floats, Ints
 
 CENTRIPETAL_SHARE = 0.866
@@ -216,8 +216,10 @@ def _put_blends(pieces: list[Piece], machine: Machine) -> list[Piece]:
             continue
         change = after.direction(0.0) - before.direction(1.0)
         square = float(change @ change)
-        if STRAIGHT_ON < square < REVERSAL:
-            wanted = 4 * tolerance / math.sqrt(square)
+        bend = along(change, machine.max_acceleration)
+        speed = min(before.speed, after.speed)
+        if STRAIGHT_ON < square < REVERSAL and speed >= bend * BLEND_TIME_S:
+            wanted = min(4 * tolerance / math.sqrt(square), speed**2 / (2 * bend * BLEND_SHARE))
             reach[index] = min(wanted, before.length / 2, after.length / 2)
     result: list[Piece] = []
     for index, piece in enumerate(pieces):

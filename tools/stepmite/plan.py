@@ -180,6 +180,12 @@ def junction_speed(
     return math.sqrt(acceleration * min(by_deviation, by_length))
 
 
+BLEND_SHARE, BLEND_MOST = 0.109, 0.75
+"""Part of the acceleration that a blend uses to turn at the speed of its lines, and at most."""
+BLEND_TIME_S = 0.001
+"""A corner that takes less time at the acceleration of the axes is passed as it is."""
+
+
 def _blend(before: Planned, after: Planned, machine: Machine) -> Planned | None:
     """Return the parabola that G64 P puts into the corner between two lines, None: there is none.
 
@@ -189,12 +195,16 @@ def _blend(before: Planned, after: Planned, machine: Machine) -> Planned | None:
     change, square = _turn(before.end_direction, after.direction)
     if tolerance <= 0 or before.block.arc or after.block.arc or not STRAIGHT_ON < square < REVERSAL:
         return None
-    reach = 4 * tolerance / math.sqrt(square)
+    bend = _limit(change, machine.max_acceleration)
+    scales = math.hypot(*before.end_direction), math.hypot(*after.direction)
+    meant = min(before.nominal, after.nominal) * max(scales)
+    if meant < bend * BLEND_TIME_S:
+        return None
+    reach = min(4 * tolerance / math.sqrt(square), meant**2 / (2 * bend * BLEND_SHARE))
     for row in (before, after):
         whole = math.dist(row.start, row.block.target)
         reach = min(reach, whole / 2)
-    speed = math.sqrt(2 * reach * _limit(change, machine.max_acceleration))
-    scales = math.hypot(*before.end_direction), math.hypot(*after.direction)
+    speed = math.sqrt(BLEND_MOST * 2 * reach * bend)
     before.length -= reach / scales[0]
     after.length -= reach / scales[1]
     length = reach / scales[0] + reach / scales[1]
