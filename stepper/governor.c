@@ -104,6 +104,9 @@ static void start_block(const block_t *block) {
         governor.top_speed = planner_top_speed(block);
         governor.overrides = blocks.overrides;
         path_begin(block);
+        if (fabsf(governor.acceleration) > block->move.acceleration) {
+            governor.choose_again = true;
+        }
     }
 }
 

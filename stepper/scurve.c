@@ -55,7 +55,7 @@ typedef struct {
     int32_t within;    // see above
     float least;       // acceleration that the jerk limit allows at least
     float chosen;      // acceleration
-    float crest;       // the highest speed that follows if it is taken back from the middle on
+    float crest;       // the highest speed that follows if it is taken back then
     bool out_of_reach; // a bound cannot be met within the jerk limit
     unsigned tests;
 } choice_t;
@@ -121,9 +121,11 @@ static void take_limits(choice_t *choice) {
 
 static float crest(const choice_t *choice, float acceleration) {
     float v = choice->now->speed;
-    return acceleration > 0.0f
-               ? v + acceleration * (HALF_SLICE_S + 0.5f * acceleration * choice->ramp.per_jerk)
-               : v;
+    if (acceleration <= 0.0f) {
+        return v;
+    }
+    float half_taken_back_s = 0.5f * acceleration * choice->ramp.per_jerk;
+    return v + acceleration * (HALF_SLICE_S + greater(half_taken_back_s, HALF_SLICE_S));
 }
 
 // The highest acceleration that jerk, acceleration and top speed allow.
@@ -135,16 +137,22 @@ static void choose_freely(choice_t *choice, float elapsed_s) {
     float least = now->acceleration - step;
     if (most > full) {
         most = greater(full, least);
-    } else if (least < -full) {
+    }
+    if (least < -full) {
         least = lesser(-full, most);
     }
     choice->least = least;
     choice->chosen = most;
     choice->crest = crest(choice, most);
     if (choice->crest > now->top) {
-        float towards = same(now->speed, now->top)
-                            ? 0.0f
-                            : ramp_towards(&choice->ramp, now->speed, now->top, HALF_SLICE_S);
+        float rise = now->top - now->speed;
+        float towards = 0.0f;
+        if (rise != 0.0f) {
+            towards = ramp_towards(&choice->ramp, now->speed, now->top, HALF_SLICE_S);
+            if (towards * SLICE_S > rise && rise > 0.0f) {
+                towards = rise * (1.0f / SLICE_S);
+            }
+        }
         if (towards >= least) {
             choice->chosen = lesser(most, towards);
             choice->crest = greater(now->top, now->speed);
@@ -265,16 +273,35 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
+// The next block may allow less: what is above that has to be gone when it begins. (Braking is planned
+// with the least limits of all blocks that it goes through.)
+static void keep_next_limit(choice_t *choice) {
+    const block_t *second = planner_second();
+    if (second == NULL || !block_is_move(second)) {
+        return;
+    }
+    const profile_t *now = choice->now;
+    float excess = choice->chosen - second->move.acceleration;
+    if (excess > 0.0f && (excess * choice->ramp.per_jerk + SLICE_S) * now->speed >= now->left) {
+        choice->chosen = greater(second->move.acceleration, choice->least);
+    }
+}
+
 float scurve_acceleration(const profile_t *now, float elapsed_s) {
     choice_t choice = {.now = now};
     take_limits(&choice);
     choose_freely(&choice, elapsed_s);
     meet_bounds(&choice);
+    keep_next_limit(&choice);
 
     float v1 = now->speed + choice.chosen * SLICE_S;
     if (choice.out_of_reach) {
         // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk last.
-        float most = HAIR * profile_braking_speed(now, planner_exit_speed2(), SLICE_S);
+        float exit_speed2 = planner_exit_speed2();
+        float most =
+            HAIR * (now->left > now->speed * SLICE_S
+                        ? profile_braking_speed(now, exit_speed2, SLICE_S)
+                        : greater(sqrtf(exit_speed2), now->speed - limits.acceleration * SLICE_S));
         if (v1 > most) {
             v1 = most;
             choice.chosen = (most - now->speed) * (1.0f / SLICE_S);
@@ -285,9 +312,11 @@ float scurve_acceleration(const profile_t *now, float elapsed_s) {
         return lesser(limits.acceleration, now->left * (1.0f / (SLICE_S * SLICE_S)));
     }
     if (v1 < CREEP && choice.chosen < 0.0f) {
-        // What is left in the end may be a hair longer than planned: do not get slower before.
-        float creep = now->top > 0.0f ? lesser(now->speed, CREEP) : 0.0f;
-        if (v1 < creep || v1 < limits.jerk * (SLICE_S * SLICE_S)) {
+        // What is left in the end may be a hair longer than planned: do not get slower before. A
+        // standstill that is asked for is reached at last.
+        bool stop = now->top <= 0.0f && now->speed <= limits.acceleration * SLICE_S;
+        float creep = stop ? 0.0f : lesser(now->speed, CREEP);
+        if (stop || v1 < creep) {
             return (creep - now->speed) * (1.0f / SLICE_S);
         }
     }
