@@ -7,7 +7,7 @@
 
 bench_t bench;
 
-static const stepper_axis_t standard[AXIS_COUNT] = {
+const stepper_axis_t bench_axes[AXIS_COUNT] = {
     {2, 3, 4, false, 80, 6000, 500, 3},
     {5, 6, 7, false, 80, 6000, 500, 3},
     {8, 9, 10, true, 400, 1200, 200, 3},
@@ -20,14 +20,14 @@ static uint64_t last_dir_ns[AXIS_COUNT];
 static void watch(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels) {
     (void)state;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if (changed & pins_mask(standard[axis].dir_gpio)) {
+        if (changed & pins_mask(bench_axes[axis].dir_gpio)) {
             last_dir_ns[axis] = time_ns;
             uint64_t hold = time_ns - last_step_ns[axis];
             if (last_step_ns[axis] != 0 && hold < bench.min_dir_hold_ns) {
                 bench.min_dir_hold_ns = hold;
             }
         }
-        if ((changed & levels & pins_mask(standard[axis].step_gpio)) == 0) {
+        if ((changed & levels & pins_mask(bench_axes[axis].step_gpio)) == 0) {
             continue;
         }
         uint64_t gap = time_ns - last_step_ns[axis];
@@ -47,9 +47,9 @@ static void attach_once(void) {
     static bool attached;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         bench.motors[axis] = (simulate_axis_t){
-            .step_gpio = standard[axis].step_gpio,
-            .dir_gpio = standard[axis].dir_gpio,
-            .dir_inverted = standard[axis].dir_invert,
+            .step_gpio = bench_axes[axis].step_gpio,
+            .dir_gpio = bench_axes[axis].dir_gpio,
+            .dir_inverted = bench_axes[axis].dir_invert,
         };
         if (!attached) {
             TEST_ASSERT_TRUE(simulate_axis_attach(&bench.motors[axis]));
@@ -78,17 +78,17 @@ static void start(const stepper_axis_t configs[AXIS_COUNT], uint32_t blocks, boo
 }
 
 void bench_start(void) {
-    start(standard, STEPPER_BLOCKS_DEFAULT, false);
+    start(bench_axes, STEPPER_BLOCKS_DEFAULT, false);
 }
 
 void bench_start_with(const stepper_axis_t *config, uint32_t blocks, bool estop_keeps_enabled) {
     stepper_axis_t configs[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        configs[axis] = config != NULL ? *config : standard[axis];
-        configs[axis].step_gpio = standard[axis].step_gpio;
-        configs[axis].dir_gpio = standard[axis].dir_gpio;
-        configs[axis].enable_gpio = standard[axis].enable_gpio;
-        configs[axis].dir_invert = standard[axis].dir_invert;
+        configs[axis] = config != NULL ? *config : bench_axes[axis];
+        configs[axis].step_gpio = bench_axes[axis].step_gpio;
+        configs[axis].dir_gpio = bench_axes[axis].dir_gpio;
+        configs[axis].enable_gpio = bench_axes[axis].enable_gpio;
+        configs[axis].dir_invert = bench_axes[axis].dir_invert;
     }
     start(configs, blocks, estop_keeps_enabled);
 }

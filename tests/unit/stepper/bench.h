@@ -19,6 +19,9 @@ typedef struct {
 
 extern bench_t bench;
 
+// The axes of bench_start(), and the pins of every bench.
+extern const stepper_axis_t bench_axes[AXIS_COUNT];
+
 // A fresh machine at home, armed: X, Y 80 steps/mm 6000 mm/min 500 mm/s^2; Z 400, 1200, 200; A 10, 36000, 2000.
 void bench_start(void);
 
