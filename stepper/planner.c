@@ -110,7 +110,11 @@ span_t planner_span_of(const block_t *block) {
         return span_unlimited;
     }
     uint32_t jerk = float_bits(block->move.jerk) >> 21;
-    jerk = jerk > JERK_CODE_BASE ? jerk - JERK_CODE_BASE : 0;
+    if (jerk == 0) {
+        jerk = UINT8_MAX; // not limited
+    } else {
+        jerk = jerk > JERK_CODE_BASE ? jerk - JERK_CODE_BASE : 0;
+    }
     return (span_t){
         .acceleration = (uint16_t)(float_bits(block->move.acceleration) >> 16),
         .jerk = (uint8_t)(jerk < UINT8_MAX ? jerk : UINT8_MAX),
@@ -158,31 +162,42 @@ static void set_end(const block_t *block) {
     }
 }
 
-// Takes up the entry cap of the newest block; way and climb are known.
-static void bind(uint32_t slot) {
-    block_t *block = &blocks.slots[slot];
-    if (block->binds) {
-        v2_t cap = block_is_move(block) ? block->move.entry_cap : 0;
-        uint64_t key = block->climb + cap;
-        span_t span = blocks.end_span;
-        while (blocks.binding.count > 0) {
-            uint32_t last = binding_index(blocks.binding.count - 1);
-            const block_t *other = &blocks.slots[blocks.binding.slot[last]];
-            if (other->climb + blocks.binding.cap[last] < key) {
-                break;
-            }
-            span = span_least(span, (span_t){other->span_acceleration, other->span_jerk});
-            blocks.binding.count--;
-        }
-        block->span_acceleration = span.acceleration;
-        block->span_jerk = span.jerk;
-        uint32_t index = binding_index(blocks.binding.count);
-        blocks.binding.slot[index] = (uint16_t)slot;
-        blocks.binding.cap[index] = cap;
-        blocks.binding.count++;
-        blocks.end_span = span_unlimited;
+// Takes the farthest binding entry away, whose limits count for `span` from now on.
+static void unbind_last(span_t *span) {
+    uint32_t last = binding_index(blocks.binding.count - 1);
+    const block_t *block = &blocks.slots[blocks.binding.slot[last]];
+    *span = span_least(*span, (span_t){block->span_acceleration, block->span_jerk});
+    blocks.binding.count--;
+    if (blocks.binding.count > 0) {
+        last = last > 0 ? last - 1 : STEPPER_BLOCKS_MAX - 1;
+        block = &blocks.slots[blocks.binding.slot[last]];
+        blocks.binding.last_key = block->climb + blocks.binding.cap[last];
     }
-    blocks.end_span = span_least(blocks.end_span, planner_span_of(block));
+}
+
+// Takes up the entry cap of the block, the one behind those that were taken up before; its way and climb
+// are known.
+__attribute__((always_inline)) static inline void bind(uint32_t slot) {
+    block_t *block = &blocks.slots[slot];
+    span_t own = planner_span_of(block);
+    if (!block->binds) {
+        blocks.end_span = span_least(blocks.end_span, own);
+        return;
+    }
+    v2_t cap = block_is_move(block) ? block->move.entry_cap : 0;
+    uint64_t key = block->climb + cap;
+    span_t span = blocks.end_span;
+    while (blocks.binding.count > 0 && blocks.binding.last_key >= key) {
+        unbind_last(&span);
+    }
+    block->span_acceleration = span.acceleration;
+    block->span_jerk = span.jerk;
+    uint32_t index = binding_index(blocks.binding.count);
+    blocks.binding.slot[index] = (uint16_t)slot;
+    blocks.binding.cap[index] = cap;
+    blocks.binding.count++;
+    blocks.binding.last_key = key;
+    blocks.end_span = own;
 }
 
 static float top_speed(const block_t *move, const planner_override_t *override) {
@@ -425,6 +440,20 @@ void planner_push_pins(uint32_t set, uint32_t clear) {
     push_block();
 }
 
+// A function of its own so that its time can be measured: the governor waits for it.
+__attribute__((noinline)) static void bind_all(void) {
+    clear_binding();
+    uint32_t slot = blocks.ring.take_slot;
+    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 0; waiting--) {
+        if (slot == blocks.ring.take_slot) {
+            blocks.end_span = planner_span_of(&blocks.slots[slot]);
+        } else {
+            bind(slot);
+        }
+        slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+    }
+}
+
 // The caps of the blocks are no business of the governor's, so the long part runs unlocked; blocks that
 // are executed meanwhile keep their contents. The queue and the factors change together.
 void planner_set_override(const planner_override_t *override) {
@@ -436,16 +465,7 @@ void planner_set_override(const planner_override_t *override) {
     hal_governor_lock();
     blocks.override = *override;
     blocks.overrides++;
-    clear_binding();
-    slot = blocks.ring.take_slot;
-    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 0; waiting--) {
-        if (slot != blocks.ring.take_slot) {
-            bind(slot);
-        } else {
-            blocks.end_span = planner_span_of(&blocks.slots[slot]);
-        }
-        slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
-    }
+    bind_all();
     hal_governor_unlock();
 }
 

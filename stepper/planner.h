@@ -76,6 +76,7 @@ typedef struct {
         uint16_t slot[STEPPER_BLOCKS_MAX];
         v2_t cap[STEPPER_BLOCKS_MAX];
         uint32_t first, count; // index of the nearest one
+        uint64_t last_key;     // of the farthest one, see planner.c; main
     } binding;
     // Behind the newest block.
     uint32_t end_way;
