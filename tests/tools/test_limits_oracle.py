@@ -107,7 +107,7 @@ def test_short_blocks_hide_nothing():
     clean = judge(lines, trip(RAMP))
     assert clean.path_jerk(30_000_000).used <= 1.0
     assert clean.axis_acceleration(clean.progress.axes[0]).used <= 1.02
-    rough = [(5_500, 0.0909), (0, 0.049), (-5_500, 0.0909)]
+    rough = [(5_600, 0.0893), (0, 0.051), (-5_600, 0.0893)]
     assert judge(lines, trip(rough)).path_jerk(25_000_000).used > 1.05
 
 

@@ -11,6 +11,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stepmite.path import Path
 from stepmite.trace import AxisTrace, Floats, Ints, TraceError
@@ -18,7 +19,7 @@ from stepmite.trace import AxisTrace, Floats, Ints, TraceError
 GRAZE_STEPS = 1
 """How many steps further or less far an axis may go where the path of an arc turns it round."""
 SHARE_LEAST = 0.6
-"""An edge says where on the path the machine is if its axis is about as fast as the fastest."""
+"""On a curve an edge says where the machine is if its axis is about as fast as the fastest."""
 
 
 @dataclass(frozen=True)
@@ -30,8 +31,8 @@ class Crossings:
     direction: Ints
     way: Floats
     """Along the path; not known (0) for recorded ones."""
-    share: Floats
-    """Speed of the axis relative to the fastest axis there, in mm or degrees."""
+    telling: NDArray[np.bool_]
+    """The way can be told from it: the axis moves evenly, or it is among the fastest there."""
 
 
 def crossings(path: Path, axis: int, scale: float, fastest: Floats) -> Crossings:
@@ -49,7 +50,8 @@ def crossings(path: Path, axis: int, scale: float, fastest: Floats) -> Crossings
     lengths = np.diff(path.way)
     way = path.way[:-1][piece] + part * lengths[piece]
     share = np.abs(change) / scale / lengths[piece] / fastest[piece]
-    return Crossings(level, direction, way, share)
+    telling = path.linear[piece, axis] | ((share >= SHARE_LEAST) & ~path.tiny[piece])
+    return Crossings(level, direction, way, telling)
 
 
 def fastest_axis(path: Path, scale: Floats) -> Floats:
@@ -78,6 +80,8 @@ class Progress:
     time_ns: Ints
     way: Floats
     axes: list[AxisMotion]
+    end_way: float
+    """Where the motion ended: at the end of the path, or where it was last seen."""
 
 
 def follow(path: Path, traces: list[AxisTrace], *, whole: bool = True) -> Progress:
@@ -92,20 +96,23 @@ def follow(path: Path, traces: list[AxisTrace], *, whole: bool = True) -> Progre
         scale["XYZA".index(trace.name)] = trace.pins.steps_per_unit
     fastest = fastest_axis(path, scale)
     times, ways, axes = [], [], []
+    farthest = 0.0
     for trace in traces:
         axis = "XYZA".index(trace.name)
         wanted = crossings(path, axis, scale[axis], fastest)
         mine, theirs = align(wanted, trace, whole)
         way, time_ns = wanted.way[theirs], trace.step_ns[mine]
+        farthest = max(farthest, float(way.max(initial=0.0)))
         slack = np.interp(way, path.way, path.slack[:, axis])
         position = (wanted.level[theirs] - slack) / scale[axis]
         axes.append(AxisMotion(trace.name, time_ns, way, position))
-        good = wanted.share[theirs] >= SHARE_LEAST
+        good = wanted.telling[theirs]
         times.append(time_ns[good])
         ways.append(way[good])
     time_ns, way = np.concatenate(times), np.concatenate(ways)
     order = np.lexsort((way, time_ns))
-    return Progress(time_ns[order], way[order], axes)
+    end_way = float(path.way[-1]) if whole else farthest
+    return Progress(time_ns[order], way[order], axes, end_way)
 
 
 def align(wanted: Crossings, trace: AxisTrace, whole: bool) -> tuple[Ints, Ints]:
@@ -126,7 +133,7 @@ def align(wanted: Crossings, trace: AxisTrace, whole: bool) -> tuple[Ints, Ints]
     mine: list[Ints] = []
     theirs: list[Ints] = []
     levels = np.cumsum(got) - got * 0.5 + (wanted.level[0] - want[0] * 0.5)
-    for (a, b), (c, d) in zip(recorded, expected, strict=False):
+    for (a, b, _), (c, d, _) in zip(recorded, expected, strict=False):
         _, left, right = np.intersect1d(levels[a:b], wanted.level[c:d], return_indices=True)
         order = np.argsort(left)
         mine.append(a + left[order])
@@ -134,29 +141,25 @@ def align(wanted: Crossings, trace: AxisTrace, whole: bool) -> tuple[Ints, Ints]
     return np.concatenate(mine), np.concatenate(theirs)
 
 
-def _runs(direction: Ints) -> list[tuple[int, int]]:
-    """Return begin and end of each stretch in one direction."""
+_Runs = list[tuple[int, int, int]]
+"""Begin and end of each stretch in one direction, and how far it leads in that direction."""
+
+
+def _runs(direction: Ints) -> _Runs:
     turns = np.flatnonzero(np.diff(direction)) + 1
     bounds = [0, *turns.tolist(), len(direction)]
-    return [(a, b) for a, b in itertools.pairwise(bounds) if b > a]
+    return [(a, b, b - a) for a, b in itertools.pairwise(bounds) if b > a]
 
 
-def _cancel_grazes(
-    recorded: list[tuple[int, int]],
-    expected: list[tuple[int, int]],
-    sign: int,
-    name: str,
-    whole: bool,
-) -> None:
+def _cancel_grazes(recorded: _Runs, expected: _Runs, sign: int, name: str, whole: bool) -> None:
     """Make both lists of runs fit each other; TraceError if they are not the same motion.
 
-    A short run and the one behind it lead back to where the run before ended: the three count as
-    one in the list that has them too much. `sign` is the direction of the first run.
+    A short run back counts as part of the run around it in the list that has it too much. `sign` is
+    the direction of the first run.
     """
     index, apart = 0, 0
     while index < min(len(recorded), len(expected)):
-        got, want = (b - a for a, b in (recorded[index], expected[index]))
-        over = got - want
+        over = recorded[index][2] - expected[index][2]
         if abs(apart + sign * over) <= GRAZE_STEPS:
             apart += sign * over
             sign = -sign
@@ -166,9 +169,10 @@ def _cancel_grazes(
             index += 1
             break
         shorter = recorded if over < 0 else expected
-        if index + 2 >= len(shorter) or -np.subtract(*shorter[index + 1]) > 2 * GRAZE_STEPS:
+        if index + 2 >= len(shorter) or shorter[index + 1][2] > 2 * GRAZE_STEPS:
             break
-        shorter[index : index + 3] = [(shorter[index][0], shorter[index + 2][1])]
+        before, back, behind = shorter[index : index + 3]
+        shorter[index : index + 3] = [(before[0], behind[1], before[2] - back[2] + behind[2])]
     if index < len(recorded) or (whole and (index < len(expected) or apart)):
         step = recorded[min(index, len(recorded) - 1)][0]
         raise TraceError(f"{name}: the path is left in the run that begins with step {step}")

@@ -16,16 +16,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stepmite.follow import AxisMotion, Progress
+from stepmite.follow import SHARE_LEAST, AxisMotion, Progress
 from stepmite.path import Corner, Path
 from stepmite.plan import Machine
 from stepmite.trace import TICK_NS, AxisTrace, Floats, Ints, merge
 
 JITTER_NS = TICK_NS
 """Half a tick by rounding to the grid, half a tick by which a segment may begin off its time."""
-CORNER_JITTER_NS = 8 * TICK_NS
-"""Around a corner an axis that turns round stands for two ticks and makes up for it at once, and
-the last few ticks of a block may share a segment with the next block."""
+CHORD_S = 0.001
+"""The longest straight part of a curve: it is a * CHORD_S^2 / 8 from the curve if a turns it."""
+CORNER_JITTER_NS = 24 * TICK_NS
+"""Around a corner: an axis that turns round stands for two ticks and makes up for it at once, the
+last few ticks of a block may share a segment with the next block, and where speeding up turns into
+braking a few ticks are not worth a segment."""
+CREEP = 0.4
+"""Units/s: corners are not judged below this speed where the jerk is limited."""
 SLOW = 1.0
 """Units/s: jerk is judged above this speed only."""
 
@@ -69,6 +74,8 @@ def differences(time_ns: Ints, position: Floats, order: int, span_ns: int) -> Di
 
     Neighbouring moments lie `span_ns` or a little more apart. Begins at every fourth of a span.
     """
+    if len(time_ns) <= order:
+        return None
     starts = np.unique(
         np.searchsorted(time_ns, np.arange(time_ns[0], time_ns[-1] + 1, max(1, span_ns // 4)))
     )
@@ -165,14 +172,24 @@ class Judge:
         # Within the window the speed is above its mean by what the acceleration makes of it.
         hardest = max(piece.acceleration for piece in self.path.pieces)
         fastest = max(piece.speed for piece in self.path.pieces) * max(1.0, self.feed_factor)
-        return JITTER_NS * np.minimum(mean + hardest * took / 2e18, fastest / 1e9)
+        by_time = JITTER_NS * np.minimum(mean + hardest * took / 2e18, fastest / 1e9)
+        return by_time + self._chord_error(way[found.first], way[found.last])
+
+    def _chord_error(self, first: Floats, last: Floats) -> Floats:
+        """Return how far off a place on a curve may be because it is made of chords."""
+        hardest = max(self.machine.max_acceleration)
+        curved = RangeMax([hardest * (not piece.is_straight) for piece in self.path.pieces])
+        pieces = self.path.piece_at(first - 1e-9), self.path.piece_at(last + 1e-9)
+        # The place is told by an axis that is at least this share of the fastest one.
+        return curved.of(*pieces) * CHORD_S**2 / 8 / SHARE_LEAST
 
     def _slow(self) -> Ints:
-        """Return for each moment whether the machine is slower than SLOW soon after it."""
+        """Return for each moment whether the machine may be slower than SLOW soon after it."""
         time_ns, way = self.progress.time_ns, self.progress.way
         later = np.minimum(np.searchsorted(time_ns, time_ns + 2_000_000), len(time_ns) - 1)
         took = np.maximum(1, time_ns[later] - time_ns) / 1e9
-        return ((way[later] - way) / took < SLOW).astype(np.int64)
+        hardest = max(piece.acceleration for piece in self.path.pieces)
+        return ((way[later] - way) / took - hardest * took / 2 < SLOW).astype(np.int64)
 
     def feed(self, span_ns: int = 5_000_000) -> Finding | None:
         """Speed along the path against feed and axes."""
@@ -222,7 +239,11 @@ class Judge:
         begin, end = axis.time_ns[found.first], axis.time_ns[found.last]
         took = (end - begin) / 1e9
         mean = (found.last - found.first) * np.abs(np.diff(axis.position)).max() / took
-        error = found.weight * np.minimum(fastest, mean + limit * took / 2) * JITTER_NS / 1e9
+        offset = np.minimum(fastest, mean + limit * took / 2) * JITTER_NS / 1e9
+        offset += self._chord_error(axis.way[found.first], axis.way[found.last])
+        error = found.weight * offset
+        if len(self.progress.way) == 0:
+            return None
         way, size = self._jumps(number)
         times = np.interp(way, self.progress.way, self.progress.time_ns)
         sizes = np.concatenate([[0.0], np.cumsum(size)])
@@ -277,36 +298,44 @@ class Judge:
         pieces = self.path.piece_at(before), self.path.piece_at(after)
         acceleration = hardest.of(*pieces) * factor
         way = np.array([corner.way for corner in corners])
-        speed = np.array([corner.speed for corner in corners]) * factor
+        # With a jerk limit the last way to a corner may be crept.
+        least = CREEP if math.isfinite(self.machine.path_jerk) else 0.0
+        speed = np.array([max(corner.speed, least) for corner in corners]) * factor
         needed = np.zeros(len(corners))
         for distance in (way - before, after - way):
             needed += (np.sqrt(speed**2 + 2 * acceleration * distance) - speed) / acceleration
         return needed
 
     def deviation_steps(self) -> Finding | None:
-        """Distance of the motors from the path at every step, each axis in its own steps.
+        """Distance of the motors from the path at every step, of the axis that is farthest off.
 
-        Looked for between the last place that was certainly passed and the next.
+        Each axis counts in its own steps; half a step of it is rounding. Looked for between the
+        last place that was certainly passed and the next.
         """
         moved = merge(self.traces)
         points = np.zeros((len(moved.time_ns), 4))
         for column, name in enumerate(moved.names):
             points[:, "XYZA".index(name)] = moved.steps[:, column]
         points += np.floor(self.path.steps[0] + 0.5)
-        known = np.concatenate([[0.0], self.progress.way, self.path.way[-1:]])
+        way, end = self.progress.way, self.progress.end_way
+        passed = np.concatenate([[0.0], np.maximum.accumulate(way), [end]])
+        coming = np.concatenate([[0.0], np.minimum.accumulate(way[::-1])[::-1], [end]])
         before = np.searchsorted(self.progress.time_ns, moved.time_ns)
         behind = np.searchsorted(self.progress.time_ns, moved.time_ns, side="right") + 1
-        low, high = known[before], known[behind]
+        # An edge or two near a corner may come out of order: look as far as both sides say.
+        low = np.minimum(passed[before], coming[before])
+        high = np.maximum(passed[behind], coming[behind])
         distance = self._nearest(points, low, high, 5)
-        far = np.flatnonzero(distance > 0.5)
-        distance[far] = self._nearest(points[far], low[far], high[far], 101)
-        distance, ones = np.sqrt(distance), np.ones(len(distance))
+        for least, count in ((0.6, 101), (0.9, 5001)):
+            far = np.flatnonzero(distance > least)
+            distance[far] = self._nearest(points[far], low[far], high[far], count)
+        ones = np.ones(len(distance))
         return _worst("deviation in steps", distance, ones, 0 * ones, moved.time_ns)
 
     def _nearest(self, points: Floats, low: Floats, high: Floats, count: int) -> Floats:
-        """Return the squares of the distances to the nearest of `count` places between two."""
+        """Return the distances to the nearest of `count` places between two ways."""
         nearest = np.full(len(points), np.inf)
         for part in np.linspace(0, 1, count):
             there = self.path.steps_at(low + (high - low) * part)
-            nearest = np.minimum(nearest, ((points - there) ** 2).sum(axis=1))
+            nearest = np.minimum(nearest, np.abs(points - there).max(axis=1))
         return nearest

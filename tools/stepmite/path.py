@@ -12,8 +12,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from stepmite.arcs import Position
+from stepmite.arcs import Arc, Position
 from stepmite.gcode import Block, target_steps
 from stepmite.plan import BLEND_SHARE, BLEND_TIME_S, Machine
 from stepmite.trace import Floats, Ints
@@ -21,8 +22,14 @@ from stepmite.trace import Floats, Ints
 CENTRIPETAL_SHARE = 0.866
 SAGITTA_STEPS = 0.002
 """How far the polyline that stands for an arc or a blend may be from it."""
-REVERSAL, STRAIGHT_ON = 3.99999, 1e-9
-"""Squares of the difference of two unit vectors."""
+TINY_STEPS = 5
+"""Curves smaller than this do not tell where on them the machine is."""
+REVERSAL, STRAIGHT_ON, TANGENTIAL = 3.99999, 1e-9, 7.6e-3
+"""Squares of the difference of two unit vectors: G61 stops above the last one, 5 degrees."""
+TANGENTIAL_DEVIATION_MM = 0.0005
+"""With which G61 passes joints below it."""
+LINE_SHARE = 0.4999
+"""Part of a line that a blend may take."""
 
 
 @dataclass
@@ -51,11 +58,25 @@ class Piece:
     plane_acceleration: float = math.inf
     other_acceleration: float = math.inf
     """Limits of the axes in the plane of an arc and of the others."""
+    whole_length: float = 0.0
+    """Of the line as programmed, without what blends cut off."""
     blend: Floats | None = None
     """The corner that a blend replaces; None: no blend."""
     slack: Floats | None = None
     """What rounding the ends of blocks to whole steps adds, in steps: at both ends, and at the
     corner between them for a blend."""
+
+    @property
+    def is_straight(self) -> bool:
+        """Tell whether it is a line."""
+        return self.blend is None and self.block.arc is None
+
+    @property
+    def linear_axes(self) -> list[bool]:
+        """Tell for each axis whether it moves evenly with the way."""
+        if self.block.arc is not None:
+            return [axis not in self.block.arc.plane for axis in range(4)]
+        return [self.blend is None] * 4
 
     @property
     def speed(self) -> float:
@@ -138,6 +159,11 @@ class Path:
     """A fine polyline: way and position in steps, shapes (vertices,) and (vertices, 4)."""
     slack: Floats
     """What rounding the ends of blocks has added to `steps`."""
+    linear: NDArray[np.bool_]
+    """For each part of the polyline and each axis: it moves evenly with the way, as all do on lines
+    and those outside of its plane on an arc."""
+    tiny: NDArray[np.bool_]
+    """It is a part of a curve of a few steps: rounding hides where on it the machine is."""
     pauses: list[tuple[float, float]]
     """Way and seconds of the dwells."""
 
@@ -149,6 +175,10 @@ class Path:
     def piece_at(self, way: Floats) -> Ints:
         """Return the index of the piece at each place along the way."""
         return np.clip(np.searchsorted(self.begin, way, side="right") - 1, 0, len(self.pieces) - 1)
+
+
+def _is_below_a_step(arc: Arc, scale: Position) -> bool:
+    return all(arc.radius * abs(arc.sweep) * scale[axis] < 0.5 for axis in arc.plane)
 
 
 def _line_or_arc(block: Block, start: Floats, machine: Machine) -> Piece:
@@ -197,12 +227,15 @@ def corner_speed(before: Piece, after: Piece, machine: Machine) -> float:
         return 0.0
     if square < STRAIGHT_ON:
         return math.inf
-    if mode.kind == "G61" or square > REVERSAL:
+    if square >= 4 or (mode.kind == "G61" and square > TANGENTIAL):
         return 0.0
+    deviation = machine.junction_deviation_mm
+    if mode.kind == "G61":
+        deviation = TANGENTIAL_DEVIATION_MM
     half_sine, half_cosine = math.sqrt(square) / 2, math.sqrt(1 - square / 4)
     acceleration = along(change, machine.max_acceleration) * math.sqrt(square)
-    by_deviation = machine.junction_deviation_mm * half_cosine / (1 - half_cosine)
-    by_length = min(before.length, after.length) / 2 * half_cosine / half_sine
+    by_deviation = deviation * half_cosine / (1 - half_cosine)
+    by_length = min(before.whole_length, after.whole_length) / 2 * half_cosine / half_sine
     return math.sqrt(acceleration * min(by_deviation, by_length))
 
 
@@ -212,15 +245,21 @@ def _put_blends(pieces: list[Piece], machine: Machine) -> list[Piece]:
     for index in range(1, len(pieces)):
         before, after = pieces[index - 1], pieces[index]
         tolerance = after.block.path_mode.tolerance_mm
-        if tolerance <= 0 or before.block.arc is not None or after.block.arc is not None:
+        if (
+            min(tolerance, before.block.path_mode.tolerance_mm) <= 0
+            or before.block.arc
+            or after.block.arc
+        ):
             continue
         change = after.direction(0.0) - before.direction(1.0)
         square = float(change @ change)
-        bend = along(change, machine.max_acceleration)
-        speed = min(before.speed, after.speed)
-        if STRAIGHT_ON < square < REVERSAL and speed >= bend * BLEND_TIME_S:
-            wanted = min(4 * tolerance / math.sqrt(square), speed**2 / (2 * bend * BLEND_SHARE))
-            reach[index] = min(wanted, before.length / 2, after.length / 2)
+        if STRAIGHT_ON < square < REVERSAL:
+            wanted = 4 * tolerance / math.sqrt(square)
+            bend = along(change, machine.max_acceleration)
+            speed = _blend_speed(before, after)
+            if speed >= bend * BLEND_TIME_S:
+                longest = LINE_SHARE * min(before.length, after.length)
+                reach[index] = min(wanted, longest, speed**2 / (2 * bend * BLEND_SHARE))
     result: list[Piece] = []
     for index, piece in enumerate(pieces):
         if reach[index] > 0:
@@ -229,6 +268,15 @@ def _put_blends(pieces: list[Piece], machine: Machine) -> list[Piece]:
         if rest.length > 1e-9:
             result.append(rest)
     return result
+
+
+def _blend_speed(before: Piece, after: Piece) -> float:
+    """Return the speed that feed and axes allow in a blend; a rapid goes at the feed of the other.
+
+    Each axis has to bear the larger of its shares in the two lines.
+    """
+    feeds = [f for f in (before.feed_speed, after.feed_speed) if f < math.inf]
+    return min([*feeds, before.axes_speed, after.axes_speed])
 
 
 def _cut(piece: Piece, first: float, last: float) -> Piece:
@@ -257,11 +305,12 @@ def _blend(before: Piece, after: Piece, reach: float, machine: Machine) -> Piece
         corner - first * reach,
         corner + second * reach,
         2 * reach,
-        min(before.feed_speed, after.feed_speed),
+        _blend_speed(before, after),
         min(before.axes_speed, after.axes_speed),
         math.sqrt(2 * reach * bend),
         min(before.acceleration, after.acceleration),
         min(before.jerk, after.jerk),
+        whole_length=2 * reach,
         blend=corner,
         slack=np.stack(slack),
     )
@@ -283,11 +332,12 @@ def build(
             runs.append([])
             continue
         steps = target_steps(block.target, scale)
-        if steps == here_steps and block.arc is None:
+        if steps == here_steps and (block.arc is None or _is_below_a_step(block.arc, scale)):
             continue
         piece = _line_or_arc(block, here, machine)
         exact = np.stack([here, piece.target]) * scale
         piece.slack = np.stack([here_steps, steps]) - exact
+        piece.whole_length = piece.length
         here, here_steps = piece.target, steps
         runs[-1].append(piece)
     pieces: list[Piece] = []
@@ -309,9 +359,19 @@ def build(
     return Path(pieces, begin, corners, *_polyline(pieces, begin, np.array(scale)), dwells)
 
 
-def _polyline(pieces: list[Piece], begin: Floats, scale: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return way, steps and slack of a polyline through all pieces."""
+def _is_tiny(piece: Piece, scale: Floats) -> bool:
+    if piece.blend is not None:
+        return bool(np.abs((piece.target - piece.start) * scale).max() < TINY_STEPS)
+    arc = piece.block.arc
+    return arc is not None and arc.radius * float(scale[list(arc.plane)].min()) < TINY_STEPS
+
+
+def _polyline(
+    pieces: list[Piece], begin: Floats, scale: Floats
+) -> tuple[Floats, Floats, Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return way, steps, slack, linear and tiny of a polyline through all pieces."""
     ways, places, slacks = [np.zeros(0)], [np.zeros((0, 4))], [np.zeros((0, 4))]
+    linear, tiny = [np.zeros((0, 4), bool)], [np.zeros(0, bool)]
     for index, piece in enumerate(pieces):
         count = 1
         if piece.blend is not None:
@@ -321,7 +381,9 @@ def _polyline(pieces: list[Piece], begin: Floats, scale: Floats) -> tuple[Floats
             steps = piece.turn_radius * float(scale[list(piece.block.arc.plane)].max())
             count = math.ceil(abs(piece.block.arc.sweep) * math.sqrt(steps / 8 / SAGITTA_STEPS))
         parts = np.arange(0 if index == 0 else 1, max(1, count) + 1) / max(1, count)
+        linear.append(np.tile(piece.linear_axes, (max(1, count), 1)))
+        tiny.append(np.full(max(1, count), _is_tiny(piece, scale)))
         ways.append(begin[index] + parts * piece.length)
         slacks.append(_curve(piece.slack, parts))
         places.append(piece.points(parts) * scale + slacks[-1])
-    return np.concatenate(ways), np.concatenate(places), np.concatenate(slacks)
+    return tuple(np.concatenate(rows) for rows in (ways, places, slacks, linear, tiny))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from stepmite.arcs import Arc, Position
 from stepmite.gcode import Block
@@ -149,7 +149,11 @@ def _describe_arc(
 
 REVERSAL = 3.99999
 STRAIGHT_ON = 1e-9
-"""Squares of the difference of two unit vectors: back the same way, on the same way."""
+TANGENTIAL = 7.6e-3
+"""Squares of the difference of two unit vectors: back the same way, on the same way, and 5 degrees,
+above which G61 stops."""
+TANGENTIAL_DEVIATION_MM = 0.0005
+"""With which G61 passes what is below."""
 
 
 def _turn(before: Position, after: Position) -> tuple[Position, float]:
@@ -231,10 +235,10 @@ def _join(rows: list[Planned], row: Planned, machine: Machine) -> None:
     if mode.kind == "G61.1":
         return
     if mode.kind == "G61":
-        tangential = _turn(before.end_direction, row.direction)[1] < STRAIGHT_ON
-        row.entry_cap = min(row.nominal, before.nominal) if tangential else 0.0
-        return
-    blend = _blend(before, row, machine)
+        if _turn(before.end_direction, row.direction)[1] > TANGENTIAL:
+            return
+        machine = replace(machine, junction_deviation_mm=TANGENTIAL_DEVIATION_MM)
+    blend = _blend(before, row, machine) if mode.kind == "G64" else None
     if blend is not None:
         rows.append(blend)
         return
