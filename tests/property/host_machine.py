@@ -82,7 +82,8 @@ class Setup:
             self.axis_jerk or (math.inf,) * 4,
         )
 
-    def program(self) -> str:
+    def axis_lines(self) -> list[str]:
+        """INIT and the axes, as typed at the prompt."""
         lines = [f"STEPPER INIT ,{self.blocks}"]
         for i, pin in enumerate(self.pins()):
             lines.append(
@@ -90,6 +91,11 @@ class Setup:
                 f"{int(pin.inverted)},{pin.steps_per_unit:.9g},"
                 f"{self.max_velocity_per_min[i]:.9g},{self.max_acceleration[i]:.9g}"
             )
+        return lines
+
+    def program(self) -> str:
+        """The BASIC program that sets the machine up and runs a job."""
+        lines = self.axis_lines()
         if self.junction_mm is not None:
             lines.append(f"STEPPER JUNCTION {self.junction_mm:.9g}")
         if self.jerk is not None:
