@@ -31,11 +31,11 @@ def moves(points, feed):
     return [f"G1 F{feed} {words[0]}", *words[1:]]
 
 
-def short_line(count=1000, length=0.02, feed=6000):
+def short_line(count=2000, length=0.02, feed=6000):
     return [f"G1 F{feed}"] + [f"X{n * length:.4f}" for n in range(1, count + 1)]
 
 
-def short_circle(count=4000, length=0.02, feed=6000):
+def short_circle(count=10_000, length=0.02, feed=6000):
     radius = count * length / (2 * math.pi)
     angles = np.linspace(0, 2 * math.pi, count + 1)[1:]
     points = np.stack([radius * (np.cos(angles) - 1), radius * np.sin(angles)], axis=1)

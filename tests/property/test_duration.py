@@ -1,6 +1,7 @@
 """Motion takes as long as the geometry demands, judged by an optimum computed independently."""
 
 import math
+from dataclasses import replace
 
 import parts
 import pytest
@@ -50,6 +51,22 @@ def test_a_part_takes_the_least_time_that_limits_and_corners_allow(tmp_path, nam
     best_s = least_time_s(result.path())
     # The queue holds 1024 blocks of it; further ahead it cannot look.
     assert best_s * 0.999 <= result.taken_s() <= best_s * 1.01 + 0.002
+
+
+@pytest.mark.parametrize("name", ALL_PARTS)
+def test_a_limited_jerk_costs_little(tmp_path, name):
+    """At 500 mm/s^2 and 10,000 mm/s^3, against the optimum without a limit of the jerk."""
+    result = run(tmp_path, ALL_PARTS[name](), replace(ROUTER, jerk=10_000.0))
+    best_s = least_time_s(result.path())
+    assert best_s <= result.taken_s() <= best_s * (1.10 if name in parts.SHORT else 1.30)
+
+
+@pytest.mark.parametrize("jerk", [None, 10_000.0])
+def test_500_short_moves_take_as_long_as_one(tmp_path, jerk):
+    setup = replace(ROUTER, jerk=jerk)
+    short = ["G90 G1 F6000"] + [f"X{n * 0.1:.1f}" for n in range(1, 501)]
+    one = run(tmp_path, ["G1 F6000 X50"], setup).taken_s()
+    assert run(tmp_path, short, setup).taken_s() == pytest.approx(one, rel=0.01)
 
 
 def test_the_optimum_of_a_line_and_of_a_corner():
