@@ -4,7 +4,7 @@ JOBS ?= $(shell nproc)
 FUZZ_SECONDS ?= 600
 PYTHON := .venv/bin/python
 
-.PHONY: help run host firmware tools test bench demo fuzz reference format clean
+.PHONY: help run host firmware tools test bench demo pictures fuzz reference format clean
 .DEFAULT_GOAL := help
 
 help: ## say what there is
@@ -41,6 +41,11 @@ demo: ## the firmware in the emulator cuts a real part; draws build/demo/demo.pn
 	@tools/setup demo
 	@$(call build,pico,,stepmite-pico)
 	@$(PYTHON) -m stepmite.demo
+
+pictures: ## docs/images/motion-*.png, speed to jerk from the step edges of the host program
+	@tools/setup tools
+	@$(call build,host,,stepmite)
+	@$(PYTHON) tests/bench/pictures.py docs/images
 
 fuzz: ## feed garbage to the prompt and the G-code reader for FUZZ_SECONDS (600)
 	@tools/setup fuzz

@@ -13,7 +13,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
+from stepmite.derivatives import Course, along_axes, along_path
+from stepmite.follow import follow
 from stepmite.gcode import AXES, read_blocks, read_lines
+from stepmite.path import build
+from stepmite.plan import Machine
 from stepmite.trace import (
     AxisPins,
     AxisTrace,
@@ -41,10 +45,20 @@ def style(axes: Axes, xlabel: str, ylabel: str) -> None:
 
 
 def commanded_path(lines: list[str]) -> Floats:
-    """Return the corners of a program, shape (corners, 4), in mm and degrees, from zero."""
-    corners = [(0.0,) * 4]
-    corners += [block.target for block in read_blocks(lines) if block.kind == "move"]
-    return np.array(corners)
+    """Return the corners of a program and points on its arcs, shape (points, 4), from zero."""
+    corners = [np.zeros((1, 4))]
+    here = (0.0,) * 4
+    for block in read_blocks(lines):
+        if block.kind == "move":
+            count = 1 if block.arc is None else max(2, int(abs(block.arc.sweep) * 20))
+            parts = [n / count for n in range(1, count + 1)]
+            if block.arc is None:
+                corners.append(np.array([block.target]))
+            else:
+                places = [block.arc.position(here, block.target, part) for part in parts]
+                corners.append(np.array(places))
+            here = block.target
+    return np.concatenate(corners)
 
 
 def draw_commanded(axes: Axes, corners: Floats, width: float = 5.0) -> None:
@@ -119,12 +133,39 @@ def draw_acceleration(axes: Axes, traces: list[AxisTrace], window: int = 25_000_
     style(axes, "time in s", "acceleration\nin mm/s²")
 
 
-def figure_of(traces: list[AxisTrace], corners: Floats | None, title: str = "") -> Figure:
+def course_of(traces: list[AxisTrace], lines: list[str] | None) -> Course:
+    """Return speed to jerk along the path: exact in corners if the recording follows `lines`."""
+    if lines is not None:
+        scale = [1.0] * 4
+        for trace in traces:
+            scale[AXES.index(trace.name)] = trace.pins.steps_per_unit
+        path = build(read_blocks(lines), Machine(), (scale[0], scale[1], scale[2], scale[3]))
+        try:
+            return along_path(follow(path, traces))
+        except TraceError:
+            pass  # another machine or another program: only the axes are known
+    return along_axes(traces)
+
+
+def draw_course(axes: Axes, course: Course, name: str, values: Floats, colour: str) -> None:
+    """Draw one value along the path over time."""
+    axes.fill_between(course.time_s, values, color=colour, alpha=0.15, linewidth=0)
+    axes.plot(course.time_s, values, color=colour, linewidth=0.7)
+    axes.set_xlim(0, course.time_s[-1])
+    usual = 1.5 * float(np.percentile(np.abs(values), 98))
+    if 0 < 2 * usual < np.abs(values).max():
+        axes.set_ylim(-usual, usual)  # a corner at speed would leave nothing else to see
+    style(axes, "time in s", name)
+
+
+def figure_of(
+    traces: list[AxisTrace], corners: Floats | None, course: Course, title: str = ""
+) -> Figure:
     """Draw everything `stepmite plot` shows."""
     path = merge(traces)
     points = path.units()
-    rows = 3 + len(traces)
-    heights = [4.0, 1.2] + [0.8] * len(traces) + [1.2]
+    rows = 5 + len(traces)
+    heights = [4.0, 1.2] + [0.8] * len(traces) + [1.2] * 3
     figure, diagrams = plt.subplots(
         rows, 1, figsize=(11, 3 + 1.6 * rows), height_ratios=heights, layout="constrained"
     )
@@ -142,9 +183,18 @@ def figure_of(traces: list[AxisTrace], corners: Floats | None, title: str = "") 
         style(diagrams[0], "time in s", path.names[0])
     draw_speed(diagrams[1], traces)
     begin, end = int(path.time_ns[0]), int(path.time_ns[-1])
-    for axes, trace in zip(diagrams[2:-1], traces, strict=True):
+    for axes, trace in zip(diagrams[2:-3], traces, strict=True):
         draw_axis(axes, trace, begin, end)
-    draw_acceleration(diagrams[-1], traces)
+    draw_acceleration(diagrams[-3], traces)
+    draw_course(
+        diagrams[-2],
+        course,
+        "acceleration along\nthe path in mm/s²",
+        course.acceleration,
+        AXIS_COLOURS["Z"],
+    )
+    jerk = course.jerk / 1000
+    draw_course(diagrams[-1], course, "jerk along\nthe path in m/s³", jerk, AXIS_COLOURS["A"])
     return figure
 
 
@@ -158,9 +208,13 @@ def plot_file(edges: Path, axes: list[str], output: Path, gcode: Path | None) ->
     traces = [trace for trace in traces if len(trace.step_ns)]
     if not traces:
         raise TraceError(f"{edges}: no steps on the pins of {', '.join(still)}")
-    corners = commanded_path(read_lines(gcode)) if gcode is not None else None
+    lines = read_lines(gcode) if gcode is not None else None
+    corners = commanded_path(lines) if lines is not None else None
     figure = figure_of(
-        traces, corners, edges.name if gcode is None else f"{edges.name}, {gcode.name}"
+        traces,
+        corners,
+        course_of(traces, lines),
+        edges.name if gcode is None else f"{edges.name}, {gcode.name}",
     )
     figure.savefig(output, dpi=130)
     plt.close(figure)
