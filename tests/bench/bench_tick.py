@@ -35,6 +35,16 @@ cache, so code that runs from flash (everything but the tick) is slower on a boa
 One tick lasts 1250 cycles.
 """
 
+PICTURES = """\
+Speed, acceleration and jerk along the path, rebuilt from the step edges (`make pictures`):
+
+![A corner](images/motion-corner.png)
+
+![A circle](images/motion-circle.png)
+
+![Short segments](images/motion-short.png)
+"""
+
 
 @dataclass
 class Section:
@@ -119,27 +129,74 @@ def lateness_section(uf2: Path) -> Section:
 
 def motion_section(missed: list[str]) -> Section:
     section = Section(
-        "Motion times", ["", "junction deviation", "taken", "optimum", "more by", "every step"]
+        "Motion times",
+        [
+            "",
+            "mode",
+            "corner",
+            "taken",
+            "optimum",
+            "ratio",
+            "first to last step",
+            "every step",
+            "other firmware, ms",
+        ],
     )
     section.note = (
         f"80 steps/mm, {motion.VELOCITY_MM_MIN:.0f} mm/min, {motion.ACCELERATION:.0f} mm/s², "
         "queued first, on the host program, whose step train is that of the board. The optimum is "
-        "the exact trapezoid for the same corners, computed on the PC; goal: within 1 %."
+        "the exact trapezoid for the same corners (junction deviation), from a dense forward and "
+        "backward pass over the geometry on the PC; goal: the trapezoid within 1 %. Ends, steps "
+        "and that F is never exceeded are read off the step edges. Other firmware did the same "
+        "work on the same emulated core, grblHAL with corners by 0.01 mm, PicoMite by 0.05 mm. The "
+        "half steps at both ends, 7 ms here, are not in times from the first to the last step."
     )
-    for outcome in motion.outcomes():
+    for outcome in motion.peers_outcomes():
         more = outcome.taken_s / outcome.optimum_s - 1
+        shown = outcome.trapezoid and outcome.deviation_mm == motion.DEVIATIONS[0]
         section.rows.append(
             [
                 outcome.name,
+                outcome.mode,
                 f"{outcome.deviation_mm} mm",
                 f"{outcome.taken_s * 1000:.1f} ms",
                 f"{outcome.optimum_s * 1000:.1f} ms",
-                f"{more * 100:.2f} %",
+                f"{1 + more:.4f}",
+                f"{outcome.motion_s * 1000:.1f} ms",
                 "yes" if outcome.exact else "NO",
+                outcome.peers if shown else "",
             ]
         )
-        if more > GOAL_MOTION or not outcome.exact:
-            missed.append(f"{outcome.name} at {outcome.deviation_mm} mm")
+        if (outcome.trapezoid and more > GOAL_MOTION) or not outcome.exact:
+            missed.append(f"{outcome.name} at {outcome.deviation_mm} mm, {outcome.mode}")
+        if outcome.feed_used > 1:
+            missed.append(f"{outcome.name}: {outcome.feed_used:.3f} of the feed, {outcome.mode}")
+    return section
+
+
+def parts_section(missed: list[str]) -> Section:
+    section = Section("Parts", ["", "mode", "taken", "optimum", "ratio", "goal"])
+    machine = motion.PARTS_MACHINE.machine()
+    section.note = (
+        f"Parts as CAM programs write them, {machine.max_acceleration[0]:.0f} mm/s², corners by "
+        f"{machine.junction_deviation_mm} mm, up to {machine.max_velocity[0]:.0f} mm/s, a queue "
+        "of 1024 blocks. The optimum knows no limit of the jerk."
+    )
+    for outcome in motion.parts_outcomes():
+        ratio = outcome.taken_s / outcome.optimum_s
+        goal = 1.01 if outcome.trapezoid else motion.goal_of(outcome)
+        section.rows.append(
+            [
+                outcome.name,
+                outcome.mode,
+                f"{outcome.taken_s:.3f} s",
+                f"{outcome.optimum_s:.3f} s",
+                f"{ratio:.3f}",
+                f"{goal:.2f}",
+            ]
+        )
+        if outcome.taken_s > goal * outcome.optimum_s + 0.002 or not outcome.exact:
+            missed.append(f"{outcome.name}, {outcome.mode}: {ratio:.3f} of the optimum")
     return section
 
 
@@ -182,6 +239,7 @@ def main() -> int:
         statement_section(options.uf2),
         lateness_section(options.uf2),
         motion_section(missed),
+        parts_section(missed),
     ]
     console = Console()
     for section in sections:
@@ -190,6 +248,7 @@ def main() -> int:
     console.print(sizes, markup=False, highlight=False)
     if options.write:
         texts = [INTRO, *[markdown(section) for section in sections]]
+        texts.insert(-1, PICTURES)
         texts.append(f"## Flash and RAM\n\nThe UF2 for the Pico.\n\n{sizes.rstrip()}\n")
         options.write.write_text("\n".join(texts), encoding="utf-8")
     for text in missed:
