@@ -32,8 +32,9 @@
 // The governor is called when a segment ends. This is left then: more rides out longer delays of this
 // interrupt, less reacts faster.
 #define SPARE_TICKS 60u
-// No more than this is ever ahead: what is asked for acts within 2 ms.
-#define AHEAD_TICKS 200u
+// No more than this is ever ahead, so that what is asked for shows at the pins within 2 ms.
+#define AHEAD_TICKS 175u
+#define STANDSTILL 0.001f                     // units/s
 #define PROGRESS_ONE 18446744073709551616.0f  // 2^64
 #define PROGRESS_MOST 18446742974197923840.0f // the float below
 
@@ -202,7 +203,10 @@ static float next_speed(float left, float *ticks) {
         governor.chosen_ticks = 0.0f;
         governor.choose_again = false;
     }
-    return scurve_speed(governor.speed, governor.acceleration, *ticks * TICK_S);
+    float v1 = scurve_speed(governor.speed, governor.acceleration, *ticks * TICK_S);
+    // On the way to a standstill a slice that is shorter than planned leaves a part of the speed; the
+    // next one leaves a part of that, and so on.
+    return here.top <= 0.0f && v1 < STANDSTILL ? 0.0f : v1;
 }
 
 // One slice of a move, through as many blocks as it touches and the segment ring has room for.
