@@ -91,9 +91,9 @@ static void test_short_lines_limit_the_blend(void) {
 static void test_no_blend_where_there_is_no_corner(void) {
     start(32);
     queue(10, 0, 0.5);
-    queue(20, 0, 0.5);      // straight on
+    queue(20, 0, 0.5);       // straight on
     queue(30, 0.00001, 0.5); // as good as that
-    queue(5, 0, 0.5);       // back
+    queue(5, 0, 0.5);        // back
     TEST_ASSERT_EQUAL_UINT32(32 - 4 - 1, stepper_blocks_free());
     arm();
     bench_finish(10);
@@ -118,7 +118,10 @@ static void test_corners_with_arcs_and_pauses_are_exact(void) {
     start(32);
     queue(10, 0, 0.5);
     stepper_arc_t arc = {
-        .move = {.target = {10, 10, 0, 0}, .feed = 600, .corner = STEPPER_CORNER_BLEND, .blend_mm = 1},
+        .move = {.target = {10, 10, 0, 0},
+                 .feed = 600,
+                 .corner = STEPPER_CORNER_BLEND,
+                 .blend_mm = 1},
         .plane = {AXIS_X, AXIS_Y},
         .centre = {0, 5},
         .turns = 1,
