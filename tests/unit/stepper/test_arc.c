@@ -2,9 +2,11 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unity.h>
 
 #include "bench.h"
+#include "stepper/geometry.h"
 
 #define TURN (2 * M_PI)
 
@@ -183,11 +185,162 @@ static void test_several_turns(void) {
     bench_end();
 }
 
+// F is the speed of X, Y and Z; A takes part in the length but not in the feed.
+static void test_feed_is_that_of_the_linear_axes(void) {
+    bench_start();
+    ideal_t arc = ideal(AXIS_X, AXIS_Y, (double[]){20, 0}, M_PI);
+    arc.wanted.move.feed = 1200;
+    arc.wanted.move.target[AXIS_A] = 180;
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, M_PI * 20 / 20 + 0.04, follow(&arc, 1.0));
+    arc = ideal(AXIS_X, AXIS_Y, (double[]){20, 0}, M_PI);
+    arc.wanted.move.feed = 1200;
+    arc.wanted.move.target[AXIS_Z] = 30;
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, hypot(M_PI * 20, 30) / 20 + 0.1, follow(&arc, 1.0));
+    bench_end();
+}
+
+// The governor's chords of 1 ms: 0.001 mm high at 200 mm/s on a radius of 5 mm.
+static void test_arc_tolerance_limits_the_speed(void) {
+    const stepper_axis_t quick = {
+        .steps_per_unit = 80, .max_velocity = 37000, .max_acceleration = 100000};
+    bench_start_with(&quick, 32, false);
+    const double speeds[] = {200, 616};
+    const float tolerances[] = {0.001f, 0.1f};
+    for (size_t i = 0; i < 2; i++) {
+        geometry_settings.arc_tolerance = tolerances[i];
+        stepper_arc_t circle = {
+            .move = {.feed = 37000},
+            .plane = {AXIS_X, AXIS_Y},
+            .centre = {5, 0},
+            .turns = 20,
+        };
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_arc(&circle));
+        double time_s = 20 * TURN * 5 / speeds[i];
+        TEST_ASSERT_DOUBLE_WITHIN(0.05 * time_s, time_s, bench_finish(10));
+    }
+    bench_end();
+}
+
+static void check_refused(const stepper_arc_t *arc, const char *message) {
+    TEST_ASSERT_NOT_EQUAL(ERR_OK, stepper_arc(arc));
+    TEST_ASSERT_EQUAL_STRING(message, err_message());
+}
+
+static void test_refusals(void) {
+    bench_start();
+    stepper_arc_t arc = {.move = {.feed = 600}, .plane = {AXIS_X, AXIS_Y}, .turns = 1};
+    check_refused(&arc, "The arc has no radius");
+    arc.centre[0] = 1e9;
+    check_refused(&arc, "The radius of the arc is too large");
+    arc.centre[0] = NAN;
+    check_refused(&arc, "The arc has no radius");
+    arc.centre[0] = INFINITY;
+    TEST_ASSERT_NOT_EQUAL(ERR_OK, stepper_arc(&arc));
+    arc.centre[0] = 3.2e6;
+    check_refused(&arc, "The radius of the arc is too large");
+    arc.centre[0] = 1;
+    arc.move.target[AXIS_X] = NAN;
+    TEST_ASSERT_NOT_EQUAL(ERR_OK, stepper_arc(&arc));
+    TEST_ASSERT_EQUAL_UINT32(32, stepper_blocks_free());
+    bench_end();
+}
+
+static void test_arcs_below_a_step_are_over_at_once(void) {
+    const stepper_axis_t coarse = {
+        .steps_per_unit = 0.1, .max_velocity = 6000, .max_acceleration = 500};
+    bench_start_with(&coarse, 32, false);
+    for (int i = 0; i < 100; i++) {
+        stepper_arc_t arc = {
+            .move = {.feed = 600},
+            .plane = {AXIS_X, AXIS_Y},
+            .centre = {0.01, 0},
+            .turns = 100,
+        };
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_arc(&arc));
+        arc.centre[0] = 0.002;
+        arc.turns = 1;
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_arc(&arc));
+        bench_finish(100);
+    }
+    TEST_ASSERT_EQUAL_INT64(0, bench.motors[AXIS_X].position_steps);
+    bench_end();
+}
+
+// Far outside any machine, and tiny; the end is exact and nothing hangs.
+static void test_extreme_scales_and_accelerations(void) {
+    const double scales[] = {0.01, 1, 10000};
+    const double accelerations[] = {1, 100000};
+    for (size_t s = 0; s < 3; s++) {
+        for (size_t a = 0; a < 2; a++) {
+            stepper_axis_t config = {
+                .steps_per_unit = scales[s],
+                .max_velocity = 60 * 5000 / scales[s],
+                .max_acceleration = accelerations[a],
+            };
+            bench_start_with(&config, 32, false);
+            double radius = 50 / scales[s];
+            stepper_arc_t arc = {
+                .move = {.target = {2 * radius, 0, 0, 0}, .feed = 1e9},
+                .plane = {AXIS_X, AXIS_Y},
+                .centre = {radius, 0},
+                .turns = 2,
+            };
+            TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, stepper_arc(&arc), err_message());
+            bench_finish(100000);
+            TEST_ASSERT_EQUAL_INT64(100, bench.motors[AXIS_X].position_steps);
+            TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, bench.min_step_gap_ns);
+            bench_end();
+        }
+    }
+}
+
+static void test_stops_and_holds_inside_arcs(void) {
+    bench_start();
+    for (int i = 0; i < 60; i++) {
+        stepper_arc_t arc = {
+            .move = {.feed = 6000},
+            .plane = {AXIS_X, AXIS_Y},
+            .centre = {5, 0},
+            .clockwise = i % 2,
+            .turns = 2,
+        };
+        double from[AXIS_COUNT];
+        stepper_target(from);
+        memcpy(arc.move.target, from, sizeof from);
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_arc(&arc));
+        bench_wait_us(1000 + (uint64_t)i * 9973);
+        stepper_hold(true);
+        bench_wait_us(300000);
+        double radius = hypot((double)bench.motors[0].position_steps / 80.0 - from[0] - 5,
+                              (double)bench.motors[1].position_steps / 80.0 - from[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1.5 / 80, 5, radius);
+        bench_check_positions();
+        stepper_hold(false);
+        if (i % 3 == 0) {
+            bench_wait_us(50000);
+            stepper_stop();
+        }
+        bench_finish(10);
+        bench_check_positions();
+        if (i % 3 != 0) {
+            TEST_ASSERT_EQUAL_INT32(lround(from[0] * 80), stepper_position_steps(AXIS_X));
+            TEST_ASSERT_EQUAL_INT32(lround(from[1] * 80), stepper_position_steps(AXIS_Y));
+        }
+    }
+    bench_end();
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_full_circle_takes_its_time);
     RUN_TEST(test_random_arcs_end_exactly_and_stay_on_their_way);
     RUN_TEST(test_end_off_the_circle);
     RUN_TEST(test_several_turns);
+    RUN_TEST(test_feed_is_that_of_the_linear_axes);
+    RUN_TEST(test_arc_tolerance_limits_the_speed);
+    RUN_TEST(test_refusals);
+    RUN_TEST(test_arcs_below_a_step_are_over_at_once);
+    RUN_TEST(test_extreme_scales_and_accelerations);
+    RUN_TEST(test_stops_and_holds_inside_arcs);
     return UNITY_END();
 }
