@@ -96,6 +96,7 @@ AUTOSAVE
 DO
   a = a + 1.5 : b$ = STR$(a) + "x"
   IF a > 1000 THEN a = SIN(a)
+  c$ = c$ + MID$(b$, 2) : IF LEN(c$) > 200 THEN c$ = RIGHT$(c$, INSTR(c$, "x"))
 LOOP
 \x1a"""
 
@@ -146,5 +147,9 @@ def test_nothing_at_the_prompt_disturbs_motion(uf2) -> None:
                 "RUN\r",
             ],
         )
+        board.send("\x03")
+        board.run_ms(100)
+        board.output()
+        assert "underruns: 0" in board.command("STEPPER STATUS")
         assert board.faults() == []
     assert first_difference(expected, actual) is None, first_difference(expected, actual)
