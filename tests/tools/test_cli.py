@@ -85,6 +85,14 @@ def test_dry_run_needs_no_board(part):
     assert re.search(r"moves\s+│ 100", result.output)
 
 
+def test_dry_run_shows_how_far_arcs_reach(part):
+    part.write_text("G1 X10 F100\nG3 X-10 I-10\nG64 P0.1\nG1 Y-1\n")
+    result = call("stream", part, "--dry-run")
+    assert result.exit_code == 0, result.output
+    assert "-10.000 to 10.000" in result.output
+    assert re.search(r"-1\.000 to (10\.000|9\.99\d)", result.output)
+
+
 def test_dry_run_finds_the_bad_line(part):
     part.write_text("G1 X1 F100\nG5 X1 I5\n")
     result = call("stream", part, "--dry-run")

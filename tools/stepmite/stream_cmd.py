@@ -14,10 +14,11 @@ from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Table
 
 from stepmite import stream
+from stepmite.arcs import Position
 from stepmite.board import Board, BoardError, BoardGone, Cancelled
 from stepmite.gcode import AXES, read_lines
 from stepmite.machine import machine_from_status
-from stepmite.plan import Machine, plan
+from stepmite.plan import Machine, Planned, plan
 
 EXIT_FAILED, EXIT_CANCELLED = 1, 130
 
@@ -155,6 +156,15 @@ def dry_run(file: Path, machine: Machine, console: Console | None = None) -> int
     return 0
 
 
+def _places(row: Planned) -> list[Position]:
+    """Return where a move leads: its end and, on an arc, points along it."""
+    arc = row.block.arc
+    if arc is None:
+        return [row.block.target]
+    count = max(8, int(abs(arc.sweep) * 30))
+    return [arc.position(row.start, row.block.target, n / count) for n in range(1, count + 1)]
+
+
 def _summary(job: stream.Job, machine: Machine) -> Table:
     rows = plan(job.blocks, machine)
     moves = [row for row in rows if row.block.kind == "move"]
@@ -165,7 +175,7 @@ def _summary(job: stream.Job, machine: Machine) -> Table:
     table.add_row("moves", str(len(moves)))
     table.add_row("at feed / rapid", f"{cuts:.1f} mm / {rapids:.1f} mm")
     for index, letter in enumerate(AXES):
-        places = [0.0] + [row.block.target[index] for row in moves]
+        places = [0.0, *(place[index] for row in moves for place in _places(row))]
         if any(places):
             table.add_row(letter, f"{min(places):.3f} to {max(places):.3f}")
     table.add_row("estimated time", clock(job.duration_s))
