@@ -175,6 +175,20 @@ static void unbind_last(span_t *span) {
     }
 }
 
+// Counts a new entry for the group of its neighbours.
+static inline void join_group(uint32_t index, v2_t cap, span_t span) {
+    uint32_t group = index / PLANNER_GROUP;
+    if (index % PLANNER_GROUP == 0 || blocks.binding.count == 0) {
+        blocks.binding.group_cap[group] = cap;
+        blocks.binding.group_span[group] = span;
+        return;
+    }
+    if (cap < blocks.binding.group_cap[group]) {
+        blocks.binding.group_cap[group] = cap;
+    }
+    blocks.binding.group_span[group] = span_least(blocks.binding.group_span[group], span);
+}
+
 // Takes up the entry cap of the block, the one behind those that were taken up before; its way and climb
 // are known.
 __attribute__((always_inline)) static inline void bind(uint32_t slot) {
@@ -195,6 +209,7 @@ __attribute__((always_inline)) static inline void bind(uint32_t slot) {
     uint32_t index = binding_index(blocks.binding.count);
     blocks.binding.slot[index] = (uint16_t)slot;
     blocks.binding.cap[index] = cap;
+    join_group(index, cap, span);
     blocks.binding.count++;
     blocks.binding.last_key = key;
     blocks.end_span = own;
@@ -521,19 +536,4 @@ float planner_exit_speed2(void) {
     }
     uint64_t entry2 = least - second->climb;
     return (float)(v2_t)(entry2 < V2_MAX ? entry2 : V2_MAX) * blocks.v2_unit;
-}
-
-bool planner_bound(uint32_t n, planner_bound_t *bound) {
-    if (n < blocks.binding.count) {
-        uint32_t index = binding_index(n);
-        const block_t *block = &blocks.slots[blocks.binding.slot[index]];
-        bound->way = block->way;
-        bound->cap = blocks.binding.cap[index];
-        bound->span = (span_t){block->span_acceleration, block->span_jerk};
-        return true;
-    }
-    bound->way = blocks.end_way;
-    bound->cap = 0;
-    bound->span = blocks.end_span;
-    return n == blocks.binding.count;
 }

@@ -19,6 +19,8 @@ typedef struct {
     uint8_t jerk;
 } span_t;
 
+#define PLANNER_GROUP 16u // binding entries
+
 // Places along the path, in 2^-12 units and modulo 2^32: for differences.
 #define WAY_ONE 4096.0f
 
@@ -75,6 +77,9 @@ typedef struct {
     struct {
         uint16_t slot[STEPPER_BLOCKS_MAX];
         v2_t cap[STEPPER_BLOCKS_MAX];
+        // The least of each group of neighbours; below that where entries have been taken away.
+        v2_t group_cap[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
+        span_t group_span[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
         uint32_t first, count; // index of the nearest one
         uint64_t last_key;     // of the farthest one, see planner.c; main
     } binding;
@@ -139,16 +144,53 @@ void planner_release_all(void);
 // The speed with which braking alone allows to leave the front block, in (units/s)^2.
 float planner_exit_speed2(void);
 
-// A place ahead that must not be passed faster than `cap`, and the limits between the one before and it.
+// A place ahead that must not be passed faster than `cap`, and the limits between the one before and it:
+// the binding entries behind the front block, one after the other, and at last the end of the queue, where
+// the cap is 0.
 typedef struct {
     uint32_t way;
     v2_t cap;
     span_t span;
+    uint32_t index, more; // for planner_next_bound()
 } planner_bound_t;
 
-// The n-th (0..) binding entry behind the front block, or at last the end of the queue, where the cap
-// is 0. False: there are no more.
-bool planner_bound(uint32_t n, planner_bound_t *bound);
+static inline void planner_first_bound(planner_bound_t *bound) {
+    bound->index = blocks.binding.first;
+    bound->more = blocks.binding.count + 1;
+}
+
+// The nearest one after planner_first_bound(), then the next. False: there are no more.
+static inline bool planner_next_bound(planner_bound_t *bound) {
+    if (bound->more <= 1) {
+        bound->way = blocks.end_way;
+        bound->cap = 0;
+        bound->span = blocks.end_span;
+        return bound->more-- == 1;
+    }
+    uint32_t index = bound->index;
+    const block_t *block = &blocks.slots[blocks.binding.slot[index]];
+    bound->way = block->way;
+    bound->cap = blocks.binding.cap[index];
+    bound->span = (span_t){block->span_acceleration, block->span_jerk};
+    bound->index = index + 1 < STEPPER_BLOCKS_MAX ? index + 1 : 0;
+    bound->more--;
+    return true;
+}
+
+// A curve made of short moves has hundreds of bounds. Passes over the next ones if a whole group of them
+// has no cap below `cap` and no limit below `span`. Returns how many.
+static inline uint32_t planner_skip_bounds(planner_bound_t *bound, v2_t cap, span_t span) {
+    uint32_t group = bound->index / PLANNER_GROUP;
+    if (bound->index % PLANNER_GROUP != 0 || bound->more <= PLANNER_GROUP + 1 ||
+        blocks.binding.group_cap[group] < cap ||
+        blocks.binding.group_span[group].acceleration < span.acceleration ||
+        blocks.binding.group_span[group].jerk < span.jerk) {
+        return 0;
+    }
+    bound->index = (bound->index + PLANNER_GROUP) % STEPPER_BLOCKS_MAX;
+    bound->more -= PLANNER_GROUP;
+    return PLANNER_GROUP;
+}
 
 // The limits of one block; and the least of what a span stands for.
 span_t planner_span_of(const block_t *block);

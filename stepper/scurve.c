@@ -29,6 +29,8 @@
 static const float alike[] = {0.94f, 0.8f, 0.5f};
 #define TESTS_MAX (ALIKE_CHANGES * 3u)
 #define BOUNDS_MAX 640u
+// With more than this it is worth the time to look closely how far ahead they can matter.
+#define BOUNDS_FEW 8u
 
 // Braking is planned with a little less than the limits, so that what rounding and slices do to it can be
 // made up for on the way.
@@ -237,10 +239,16 @@ static void meet_bounds(choice_t *choice) {
     float group_speed2 = -1.0f; // none
     float alike_speed2 = 0.0f;
     int32_t way = 0;
+    bool looked = false;
     planner_bound_t bound;
-    for (uint32_t n = 0; planner_bound(n, &bound); n++) {
+    planner_first_bound(&bound);
+    for (uint32_t n = 0; planner_next_bound(&bound); n++) {
         if (n == 1) {
             keep_next_span(choice, bound.span, way);
+        } else if (n >= BOUNDS_FEW && !looked) {
+            looked = true;
+            int32_t within = reach(&choice->ramp, choice->crest);
+            choice->within = within < choice->within ? within : choice->within;
         }
         way = (int32_t)(bound.way - here);
         take_span(choice, bound.span);
@@ -249,6 +257,7 @@ static void meet_bounds(choice_t *choice) {
         }
         v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
         if (cap >= slower) {
+            n += planner_skip_bounds(&bound, slower, choice->span);
             continue;
         }
         slower = cap;
