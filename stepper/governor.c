@@ -416,6 +416,12 @@ void governor_position(int32_t steps[AXIS_COUNT]) {
     }
 }
 
+void governor_whereabouts(float *speed, float *left) {
+    bool moving = governor.block != NULL && governor.speed > 0.0f;
+    *speed = moving ? governor.speed : 0.0f;
+    *left = moving ? remaining() : 0.0f;
+}
+
 void governor_hold(bool hold) {
     jog_stop();
     governor.holding = hold && !governor.stopping && !jog_active();

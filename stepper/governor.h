@@ -45,6 +45,10 @@ void governor_emergency_stop(void);
 // Where the motors are now.
 void governor_position(int32_t steps[AXIS_COUNT]);
 
+// The speed at the end of what the tick has been given, units/s, and the way from there to the end of the
+// front block. 0 at rest.
+void governor_whereabouts(float *speed, float *left);
+
 // The following may be read in any context, unlocked.
 bool governor_armed(void);
 bool governor_stopping(void);

@@ -24,6 +24,7 @@
 #include "stepper/arc.h"
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
+#include "stepper/governor.h"
 
 // A line, its blend and the next line, and one to spare.
 #define BLEND_RING_MIN 4u
@@ -308,28 +309,25 @@ static float stop_length(float speed, float acceleration, float jerk) {
     return top * (0.5f * top / acceleration + 2.0f * ramp);
 }
 
-// Whether the machine can still stop where the line in `slot` will end, `cut` before its end. Only then
-// may the end be changed: what it does already is not based on anything behind that.
-static bool is_far_ahead(const block_t *line, float rest) {
-    if (!blocks.front_started) {
-        return true;
-    }
-    const block_t *second = planner_second();
-    float exit2 = planner_exit_speed2();
-    v2_t gain = v2_from(2.0f * line->move.acceleration * rest);
-    if (line->climb + gain - second->climb < v2_from(exit2)) {
-        return false;
-    }
-    if (line->move.jerk <= 0.0f) {
-        return true;
-    }
-    if (exit2 <= 0.0f) { // perhaps it is no move
+// Whether the machine can still stop before the newest line ends, if that is `length` long. Only then may
+// its end be changed: what is done already does not depend on anything behind it.
+static bool is_far_ahead(const block_t *line, float length) {
+    float speed, left;
+    governor_whereabouts(&speed, &left);
+    if (speed <= 0.0f) {
         return true;
     }
     const block_t *front = planner_front();
-    float way = (float)(line->way - second->way) / WAY_ONE + rest;
-    float acceleration = lesser(front->move.acceleration, line->move.acceleration);
-    return stop_length(sqrtf(exit2), acceleration, lesser(front->move.jerk, line->move.jerk)) < way;
+    const block_t *second = planner_second();
+    if (line->move.jerk > 0.0f) {
+        left += (float)(line->way - second->way) / WAY_ONE + length;
+        float acceleration = lesser(front->move.acceleration, line->move.acceleration);
+        float jerk = lesser(front->move.jerk, line->move.jerk);
+        return stop_length(speed, acceleration, jerk) < left;
+    }
+    float overrun2 = speed * speed - 2.0f * front->move.acceleration * left;
+    v2_t gain = v2_from(2.0f * line->move.acceleration * length);
+    return overrun2 <= 0.0f || v2_from(overrun2) < line->climb - second->climb + gain;
 }
 
 // Cuts `lead` in 2^-32 off the end of the newest block, a line. False: it is too late for that. Governor
