@@ -74,17 +74,30 @@ err_t arc_measure(arc_t *arc, const stepper_arc_t *wanted, const double from[AXI
     arc->radius = 0.5 * (at_start + at_end);
     err_t err = check_radii(arc, at_start, at_end);
     if (err == ERR_OK) {
-        arc->start_turns = trig_angle(arc->start[0], arc->start[1]);
         arc->turns = find_turns(arc, wanted);
     }
     return err;
 }
 
+// A measure of the direction of a vector that grows with its angle, by one for each quarter turn: 0..4.
+static double direction_of(const double v[2]) {
+    double part = v[1] / (fabs(v[0]) + fabs(v[1]));
+    if (v[0] < 0.0) {
+        return 2.0 - part;
+    }
+    return part < 0.0 ? 4.0 + part : part;
+}
+
 // The arc passes the direction that lies `quarter` quarter turns from the first axis.
-static bool passes(const arc_t *arc, int quarter) {
-    double from = arc->turns > 0.0 ? arc->start_turns : arc->start_turns + arc->turns;
-    double next = ceil(from - 0.25 * quarter) + 0.25 * quarter;
-    return next < from + fabs(arc->turns);
+static bool passes(const arc_t *arc, double quarter) {
+    if (fabs(arc->turns) >= 1.0) {
+        return true;
+    }
+    double from = direction_of(arc->turns > 0.0 ? arc->start : arc->end);
+    double to = direction_of(arc->turns > 0.0 ? arc->end : arc->start);
+    double way = to < from ? to - from + 4.0 : to - from;
+    double there = quarter < from ? quarter - from + 4.0 : quarter - from;
+    return there < way;
 }
 
 void arc_extent(const arc_t *arc, unsigned n, double *low, double *high) {

@@ -11,7 +11,6 @@ struct arc {
     double centre[2];        // machine coordinates, units
     double start[2], end[2]; // from the centre, units
     double radius;           // mean of start and end, units
-    double start_turns;      // angle of `start`, turns
     double turns;            // > 0 counter-clockwise
 };
 

@@ -35,9 +35,10 @@ static struct {
         // Start radius and its perpendicular in the steps of each axis, times 2^(shift + 2).
         int32_t radius[2], perpendicular[2];
         uint32_t shift;
-        int64_t sweep;   // 2^-32 turns
-        int32_t growth;  // of the radius up to the end, of TRIG_ONE
-        int32_t rest[2]; // 2^-16 steps
+        int64_t start[2]; // radius in 2^-32 steps
+        int64_t sweep;    // 2^-32 turns
+        int32_t growth;   // of the radius up to the end, of TRIG_ONE
+        int32_t rest[2];  // 2^-16 steps
     } arc;
 } path;
 
@@ -68,12 +69,14 @@ static int binary_size(float value) {
 // From the start, in 2^-32 steps, without `rest`.
 static void arc_offset(uint32_t angle, int32_t growth, int64_t offset[2]) {
     trig_t turned = trig_sin_cos(angle);
-    int32_t cos = turned.cos + (int32_t)(((int64_t)turned.cos * growth) >> 30);
-    int32_t sin = turned.sin + (int32_t)(((int64_t)turned.sin * growth) >> 30);
+    if (growth != 0) {
+        turned.cos += (int32_t)(((int64_t)turned.cos * growth) >> 30);
+        turned.sin += (int32_t)(((int64_t)turned.sin * growth) >> 30);
+    }
     for (unsigned n = 0; n < 2; n++) {
-        int64_t place =
-            (int64_t)path.arc.radius[n] * cos + (int64_t)path.arc.perpendicular[n] * sin;
-        offset[n] = (place - (int64_t)path.arc.radius[n] * TRIG_ONE) >> path.arc.shift;
+        int64_t place = (int64_t)path.arc.radius[n] * turned.cos +
+                        (int64_t)path.arc.perpendicular[n] * turned.sin;
+        offset[n] = (place >> path.arc.shift) - path.arc.start[n];
     }
 }
 
@@ -95,6 +98,9 @@ static void measure_radius(const block_t *block) {
     factor = scale[1] * to_mantissa;
     path.arc.radius[1] = -(int32_t)(centre[1] * factor);
     path.arc.perpendicular[1] = -(int32_t)(centre[0] * factor);
+    for (unsigned n = 0; n < 2; n++) {
+        path.arc.start[n] = ((int64_t)path.arc.radius[n] * TRIG_ONE) >> path.arc.shift;
+    }
 }
 
 // How far the arc's end is from where it should be, in 2^-32 steps.
@@ -114,9 +120,8 @@ static void turn_and_stretch(const int64_t rest[2]) {
         axis_id_t axis = path.arc.axis[n];
         float units = 1.0f / ((float)STEP_ONE * (float)axes[axis].config.steps_per_unit);
         int64_t end = ((int64_t)path.to[axis] - path.from[axis]) * STEP_ONE - rest[n];
-        int64_t start = ((int64_t)path.arc.radius[n] * TRIG_ONE) >> path.arc.shift;
         left[n] = (float)rest[n] * units;
-        radius[n] = (float)(start + end) * units;
+        radius[n] = (float)(path.arc.start[n] + end) * units;
     }
     float radius2 = radius[0] * radius[0] + radius[1] * radius[1];
     float turn = radius[0] * left[1] - radius[1] * left[0];
@@ -159,12 +164,13 @@ static void arc_at(uint32_t fraction, int64_t position[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         int64_t delta = (int64_t)path.to[axis] - path.from[axis];
         position[axis] = path.from[axis] * STEP_ONE;
-        if (axis == path.arc.axis[0] || axis == path.arc.axis[1]) {
-            unsigned n = axis == path.arc.axis[1];
-            position[axis] += offset[n] + (((int64_t)path.arc.rest[n] * fraction) >> 16);
-        } else if (delta != 0) {
+        bool turns = axis == path.arc.axis[0] || axis == path.arc.axis[1];
+        if (delta != 0 && !turns) {
             position[axis] += delta * fraction;
         }
+    }
+    for (unsigned n = 0; n < 2; n++) {
+        position[path.arc.axis[n]] += offset[n] + (((int64_t)path.arc.rest[n] * fraction) >> 16);
     }
 }
 

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define STEPS_LOG2 24          // of 2^-32 turns between two places of the table
-#define RADIANS_Q36 1686629713 // 2 pi 2^-32 2^36 2^24: from 2^-32 turns to radians in 2^-60
+#define STEPS_LOG2 24           // of 2^-32 turns between two places of the table
+#define RADIANS_Q60 1686629713u // 2 pi 2^-32: from 2^-32 turns to radians in 2^-60
 
 // sin(i / 64 of a quarter turn) in 2^-31.
 static const uint32_t quarter[65] = {
@@ -25,35 +25,49 @@ static const uint32_t quarter[65] = {
     2146836866u, 2147483648u,
 };
 
+// The upper half of the product. The 64-bit product of a core without one is a call and costs twice as much.
+static inline uint32_t upper_product(uint32_t a, uint32_t b) {
+    uint32_t low = (a & 0xffff) * (b & 0xffff);
+    uint32_t middle = (a >> 16) * (b & 0xffff) + (low >> 16);
+    uint32_t other = (a & 0xffff) * (b >> 16) + (middle & 0xffff);
+    return (a >> 16) * (b >> 16) + (middle >> 16) + (other >> 16);
+}
+
+// Of an angle in the first quarter turn, in 2^-31.
+static void sin_cos_of_quarter(uint32_t angle, uint32_t *cos, uint32_t *sin) {
+    uint32_t place = (angle + (1u << (STEPS_LOG2 - 1))) >> STEPS_LOG2;
+    int32_t rest = (int32_t)(angle - (place << STEPS_LOG2));
+    uint32_t size = (uint32_t)(rest < 0 ? -rest : rest);
+
+    uint32_t d = upper_product(size << 8, RADIANS_Q60); // 2^-36 rad, below 2^30
+    uint32_t d2 = upper_product(d, d);                  // 2^-40, below 2^28
+    uint32_t d4 = (d2 >> 14) * (d2 >> 14) >> 12;        // 2^-40
+    uint32_t v = d2 / 2 - d4 * 2731 / 65536;            // 2731 / 65536: a 24th
+    uint32_t d3 = (d >> 16) * (d2 >> 12) >> 12;         // 2^-36
+    uint32_t s = d - d3 * 2731 / 16384;                 // a sixth
+
+    uint32_t c0 = quarter[64 - place];
+    uint32_t s0 = quarter[place];
+    uint32_t across = (upper_product(s0, s << 2) + 32) >> 6;
+    uint32_t ahead = (upper_product(c0, s << 2) + 32) >> 6;
+    *cos = c0 - ((upper_product(c0, v << 4) + 2048) >> 12) - (rest < 0 ? 0 - across : across);
+    *sin = s0 - ((upper_product(s0, v << 4) + 2048) >> 12) + (rest < 0 ? 0 - ahead : ahead);
+}
+
 trig_t trig_sin_cos(uint32_t angle) {
-    uint32_t in_quarter = angle & 0x3fffffffu;
-    uint32_t place = (in_quarter + (1u << (STEPS_LOG2 - 1))) >> STEPS_LOG2;
-    int32_t rest = (int32_t)(in_quarter - (place << STEPS_LOG2));
-
-    int32_t d = (int32_t)(((int64_t)rest * RADIANS_Q36) >> 24); // 2^-36 rad, below 2^30
-    uint32_t d2 = (uint32_t)(((int64_t)d * d) >> 32);           // 2^-40, below 2^28
-    uint32_t d4 = (d2 >> 14) * (d2 >> 14) >> 12;                // 2^-40
-    uint32_t v = d2 / 2 - d4 / 24;
-    int32_t d3 = (d >> 16) * (int32_t)(d2 >> 12) >> 12; // 2^-36
-    int32_t s = d - d3 / 6;
-
-    uint64_t table_cos = quarter[64 - place];
-    uint64_t table_sin = quarter[place];
-    int64_t cos = (int64_t)(table_cos << 1) - (int64_t)((table_cos * v) >> 39) -
-                  (((int64_t)table_sin * s) >> 35); // 2^-32
-    int64_t sin = (int64_t)(table_sin << 1) - (int64_t)((table_sin * v) >> 39) +
-                  (((int64_t)table_cos * s) >> 35);
-    int32_t c = (int32_t)((cos + 2) >> 2);
-    int32_t n = (int32_t)((sin + 2) >> 2);
+    uint32_t cos, sin;
+    sin_cos_of_quarter(angle & 0x3fffffffu, &cos, &sin);
+    int32_t c = (int32_t)((cos + 1) >> 1);
+    int32_t s = (int32_t)((sin + 1) >> 1);
     switch (angle >> 30) {
     case 0:
-        return (trig_t){c, n};
+        return (trig_t){c, s};
     case 1:
-        return (trig_t){-n, c};
+        return (trig_t){-s, c};
     case 2:
-        return (trig_t){-c, -n};
+        return (trig_t){-c, -s};
     default:
-        return (trig_t){n, -c};
+        return (trig_t){s, -c};
     }
 }
 
