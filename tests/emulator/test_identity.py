@@ -34,7 +34,8 @@ SETUP = [
 WAIT = "DO WHILE PEEK(STEPPER ACTIVE)=1: PAUSE 10: LOOP"
 END = "STEPPER STATUS"
 
-# Lines, corners, tiny moves, a reversal, four axes at once, a dwell, fast and slow.
+# Lines, corners, tiny moves, a reversal, four axes at once, a dwell, fast and slow; arcs in two planes, round
+# corners.
 FIGURE = """\
 G90
 G0 X10 Y5 Z1
@@ -52,7 +53,15 @@ X-2 Y2
 X2 Y-2
 X-2.01 Y2.02 Z0.013
 G90
-G0 X0 Y0 Z0
+X3 Y2 Z0
+G2 X8 Y2.001 I2.5 F2500
+G3 X8 Y2.001 I-1 Z0.4 A20 P2
+G18 G2 X9 Z0.2 R0.75
+G17 G64 P0.2 G1 X12 F4000
+X12.5 Y7 Z0.1
+X10 Y7.3
+X4 Y2 A0
+G64 G0 X0 Y0 Z0
 M5
 """.splitlines()
 

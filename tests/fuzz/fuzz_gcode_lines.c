@@ -149,9 +149,10 @@ void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
 }
 
 void fuzz_gcode_any_line(fuzz_text_t *text) {
-    static const char *const codes[] = {"G0",    "G1",  "G1", "G4",  "G90", "G91", "G92", "M3",
-                                        "M5",    "G28", "G2", "G3",  "G21", "G20", "M2",  "M30",
-                                        "G92.1", "G-1", "G",  "N10", "T1",  "%"};
+    static const char *const codes[] = {"G0",    "G1",  "G1", "G4",  "G90",   "G91", "G92",  "M3",
+                                        "M5",    "G28", "G2", "G3",  "G21",   "G20", "M2",   "M30",
+                                        "G92.1", "G-1", "G",  "N10", "T1",    "%",   "G17",  "G18",
+                                        "G19",   "G2",  "G3", "G61", "G61.1", "G64", "G91.1"};
     static const char words[] = "XYZAFPXYZAFPIJKRSNTELBCUVW$*";
     for (unsigned i = fuzz_random_below(8); i > 0; i--) {
         add_gap(text);
