@@ -47,7 +47,7 @@ static void test_angles(void) {
     double worst = 0;
     for (int i = -400000; i <= 400000; i++) {
         double angle = i / 800001.0;
-        double length = ldexp(1.0 + i * i % 1000 * 0.001, i % 30);
+        double length = ldexp(1.0 + abs(i) % 1000 * 0.001, i % 30);
         double found = trig_angle(length * cos(angle * TURN), length * sin(angle * TURN));
         worst = fmax(worst, fabs(found - angle));
     }
