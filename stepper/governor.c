@@ -26,6 +26,7 @@
 #define CHOSEN_TICKS 150.0f
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
+#define CORNER_TICKS_MIN 2.0f // the same before a corner, which must not be cut
 #define DWELL_SLICE_TICKS 100u
 // Time the drivers get between being enabled and the first step.
 #define ENABLE_TICKS 5u
@@ -34,7 +35,9 @@
 #define SPARE_TICKS 60u
 // No more than this is ever ahead, so that what is asked for shows at the pins within 2 ms.
 #define AHEAD_TICKS 175u
-#define STANDSTILL 0.001f                     // units/s
+#define STANDSTILL 0.001f // units/s
+// What a corner may be reached too fast, from rounding, as the time to brake that off.
+#define HAIR_S 0.0002f
 #define PROGRESS_ONE 18446744073709551616.0f  // 2^64
 #define PROGRESS_MOST 18446742974197923840.0f // the float below
 
@@ -143,21 +146,32 @@ static void drop_blocks(void) {
     follow_motors();
 }
 
+static bool goes_straight_on(void) {
+    const block_t *second = planner_second();
+    return second != NULL && block_is_move(second) && second->move.corner == V2_MAX;
+}
+
 // The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the ticks of
 // it that are used.
 static float pass_end(float left, float v1, float dt) {
     float v = governor.speed;
     float acceleration = (v1 - v) / dt;
+    float exit_speed2 = planner_exit_speed2();
     float end_speed = sqrtf(greater(v * v + 2.0f * acceleration * left, 0.0f));
+    float excess = end_speed - sqrtf(exit_speed2);
+    if (excess > 0.0f && excess < governor.block->move.acceleration * HAIR_S) {
+        end_speed -= excess;
+    }
     float time = v + end_speed > 0.0f ? lesser(2.0f * left / (v + end_speed), dt) : dt;
     float ticks = time * (float)HAL_TICK_HZ;
-    bool at_rest = planner_exit_speed2() <= 0.0f;
+    bool at_rest = exit_speed2 <= 0.0f;
     go_on(ticks, at_rest ? 0.0f : end_speed);
     if (at_rest) {
         stand();
     }
 
-    if (at_rest || governor.pending_ticks >= SEGMENT_TICKS_MIN) {
+    float least = at_rest || goes_straight_on() ? SEGMENT_TICKS_MIN : CORNER_TICKS_MIN;
+    if (at_rest || governor.pending_ticks >= least) {
         int64_t target[AXIS_COUNT];
         path_end(target);
         write_way(target, at_rest);

@@ -55,9 +55,10 @@ typedef struct {
     ramp_t ramp;       // limits from here to the bound being looked at
     span_t span;       // the same
     int32_t within;    // see above
-    float least;       // acceleration that the jerk limit allows at least
+    float least, most; // accelerations that the jerk limit allows
     float chosen;      // acceleration
     float crest;       // the highest speed that follows if it is taken back then
+    bool bound;        // it was lowered for a bound
     bool out_of_reach; // a bound cannot be met within the jerk limit
     unsigned tests;
 } choice_t;
@@ -144,6 +145,7 @@ static void choose_freely(choice_t *choice, float elapsed_s) {
         least = lesser(-full, most);
     }
     choice->least = least;
+    choice->most = most;
     choice->chosen = most;
     choice->crest = crest(choice, most);
     if (choice->crest > now->top) {
@@ -189,8 +191,12 @@ static void meet(choice_t *choice, float distance, float cap) {
         return;
     }
     float high = margin(choice, choice->chosen, distance, cap);
-    if (high >= 0.0f || choice->chosen <= choice->least) {
-        choice->out_of_reach |= high < 0.0f;
+    if (high >= 0.0f) {
+        return;
+    }
+    choice->bound = true;
+    if (choice->chosen <= choice->least) {
+        choice->out_of_reach = true;
         return;
     }
     float low = margin(choice, choice->least, distance, cap);
@@ -282,17 +288,19 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
-// The next block may allow less: what is above that has to be gone when it begins. (Braking is planned
-// with the least limits of all blocks that it goes through.)
+// The next block may allow less: what is above that has to be gone when it begins. (Braking for a bound
+// is planned with the least limits of all blocks that it goes through.)
 static void keep_next_limit(choice_t *choice) {
     const block_t *second = planner_second();
     if (second == NULL || !block_is_move(second)) {
         return;
     }
     const profile_t *now = choice->now;
-    float excess = choice->chosen - second->move.acceleration;
+    float next = second->move.acceleration;
+    bool free_braking = choice->chosen < 0.0f && !choice->bound;
+    float excess = (free_braking ? -choice->chosen : choice->chosen) - next;
     if (excess > 0.0f && (excess * choice->ramp.per_jerk + SLICE_S) * now->speed >= now->left) {
-        choice->chosen = greater(second->move.acceleration, choice->least);
+        choice->chosen = free_braking ? lesser(-next, choice->most) : greater(next, choice->least);
     }
 }
 
@@ -323,9 +331,9 @@ float scurve_acceleration(const profile_t *now, float elapsed_s) {
     if (v1 < CREEP && choice.chosen < 0.0f) {
         // What is left in the end may be a hair longer than planned: do not get slower before. A
         // standstill that is asked for is reached at last.
-        bool stop = now->top <= 0.0f && now->speed <= limits.acceleration * SLICE_S;
+        bool stop = now->top <= 0.0f;
         float creep = stop ? 0.0f : lesser(now->speed, CREEP);
-        if (stop || v1 < creep) {
+        if (stop ? now->speed <= limits.acceleration * SLICE_S : v1 < creep) {
             return (creep - now->speed) * (1.0f / SLICE_S);
         }
     }
