@@ -339,3 +339,28 @@ class Judge:
             there = self.path.steps_at(low + (high - low) * part)
             nearest = np.minimum(nearest, np.abs(points - there).max(axis=1))
         return nearest
+
+
+def of_one_axis(
+    trace: AxisTrace, order: int, span_ns: int, limit: float, fastest: float
+) -> Finding | None:
+    """Judge an axis that moves alone, without a path: speed (1), acceleration (2) or jerk (3).
+
+    Units, units/s of `fastest`, the highest speed; jerk is judged above SLOW only.
+    """
+    position = (trace.steps() - trace.direction * 0.5) / trace.pins.steps_per_unit
+    found = differences(trace.step_ns, position, order, span_ns)
+    if found is None:
+        return None
+    error = found.weight * fastest * JITTER_NS / 1e9
+    keep = np.ones(len(error), bool)
+    if order == 3:
+        gaps = np.diff(trace.step_ns, append=trace.step_ns[-1] + 10**9) / 1e9
+        turns = np.diff(trace.direction, append=trace.direction[-1]) != 0
+        slow = np.cumsum(turns | (1 / trace.pins.steps_per_unit / gaps < 2 * SLOW))
+        keep = slow[found.last] == slow[found.first]
+    what = ("speed", "acceleration", "jerk")[order - 1]
+    limits = np.full(len(error), limit)
+    rows = found.value, limits, error, trace.step_ns[found.first]
+    value, limits, error, when = (row[keep] for row in rows)
+    return _worst(f"{what} of {trace.name} alone", value, limits, error, when)
