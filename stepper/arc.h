@@ -4,6 +4,7 @@
 #define STEPPER_ARC_H
 
 #include "stepper/geometry.h"
+#include "stepper/moves.h"
 #include "stepper/planner.h"
 
 struct arc {

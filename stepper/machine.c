@@ -4,6 +4,7 @@
 #include "stepper/axis.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
+#include "stepper/moves.h"
 #include "stepper/planner.h"
 
 machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
@@ -17,7 +18,7 @@ void machine_motor_steps(int32_t steps[AXIS_COUNT]) {
 void machine_follow_motors(void) {
     int32_t steps[AXIS_COUNT];
     machine_motor_steps(steps);
-    planner_set_position(steps);
+    moves_set_position(steps);
 }
 
 void machine_follow_stops(void) {
@@ -73,7 +74,7 @@ err_t machine_check_queue(void) {
     if (jog_active()) {
         return err_raise(ERR_JOGGING, NULL);
     }
-    return planner_free() > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
+    return moves_free() > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
 }
 
 bool machine_estop_asserted(void) {

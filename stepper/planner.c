@@ -17,27 +17,13 @@
 // Context: main loop, the queue with the governor locked; the governor for what its section says.
 #include "stepper/planner.h"
 
-#include <float.h>
 #include <math.h>
-#include <string.h>
 
-#include "stepper/arc.h"
 #include "stepper/axis.h"
-#include "stepper/geometry.h"
-#include "stepper/governor.h"
-
-// A line, its blend and the next line, and one to spare.
-#define BLEND_RING_MIN 4u
 
 planner_ring_t blocks;
 
 static struct {
-    double commanded[AXIS_COUNT]; // end of the last move, units, also if it was too short to queue
-    double target[AXIS_COUNT];    // end of the last queued move, units
-    int32_t target_steps[AXIS_COUNT];
-    bool corner; // the last queued block is a move, `last` is what it is like
-    bool blends; // the last one is a line that may be rounded off at its end
-    geometry_t last;
     float way_rest; // what `way` of the newest block leaves out, 0..1
     float end_way_rest;
 } planner;
@@ -54,7 +40,6 @@ void planner_reset(uint32_t size) {
     ring_reset(&blocks.ring, size);
     clear_binding();
     blocks.front_started = false;
-    planner.corner = false;
 }
 
 void planner_set_scale(void) {
@@ -68,73 +53,14 @@ void planner_set_scale(void) {
     blocks.v2_per_unit = (float)V2_MAX / fastest2;
 }
 
-void planner_set_position(const int32_t steps[AXIS_COUNT]) {
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        planner.target_steps[axis] = steps[axis];
-        planner.target[axis] = axis_from_steps(axis, steps[axis]);
-        planner.commanded[axis] = planner.target[axis];
-    }
-    planner.corner = false;
-}
-
-void planner_target(double target[AXIS_COUNT]) {
-    memcpy(target, planner.commanded, sizeof planner.commanded);
-}
-
-static float lesser(float a, float b) {
-    return a < b ? a : b;
-}
-
-static v2_t v2_from(float speed2) {
+v2_t planner_v2(float speed2) {
     float units = speed2 * blocks.v2_per_unit;
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
-// ---- Spans ---------------------------------------------------------------------------------------
-
-#define JERK_CODE_BASE ((127u - 20u) << 2) // of 2^-20
-
-static uint32_t float_bits(float value) {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
-static float float_from_bits(uint32_t bits) {
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 span_t planner_span_of(const block_t *block) {
-    if (!block_is_move(block)) {
-        return span_unlimited;
-    }
-    uint32_t jerk = float_bits(block->move.jerk) >> 21;
-    if (jerk == 0) {
-        jerk = UINT8_MAX; // not limited
-    } else {
-        jerk = jerk > JERK_CODE_BASE ? jerk - JERK_CODE_BASE : 0;
-    }
-    return (span_t){
-        .acceleration = (uint16_t)(float_bits(block->move.acceleration) >> 16),
-        .jerk = (uint8_t)(jerk < UINT8_MAX ? jerk : UINT8_MAX),
-    };
-}
-
-float span_acceleration(span_t span) {
-    return float_from_bits((uint32_t)span.acceleration << 16);
-}
-
-float span_jerk(span_t span) {
-    return float_from_bits((span.jerk + JERK_CODE_BASE) << 21);
-}
-
-span_t span_least(span_t a, span_t b) {
-    return (span_t){
-        .acceleration = a.acceleration < b.acceleration ? a.acceleration : b.acceleration,
-        .jerk = a.jerk < b.jerk ? a.jerk : b.jerk,
-    };
+    return block_is_move(block) ? span_of(block->move.acceleration, block->move.jerk)
+                                : span_unlimited;
 }
 
 // ---- The queue of binding caps -------------------------------------------------------------------
@@ -159,7 +85,7 @@ static void set_end(const block_t *block) {
         uint32_t whole = (uint32_t)way;
         planner.end_way_rest = way - (float)whole;
         blocks.end_way += whole;
-        blocks.end_climb += v2_from(2.0f * block->move.acceleration * block->move.length);
+        blocks.end_climb += planner_v2(2.0f * block->move.acceleration * block->move.length);
     }
 }
 
@@ -238,219 +164,51 @@ static void find_entry_cap(const block_t *before, block_t *block,
     }
     float speed_before = top_speed(before, override);
     float speed = top_speed(block, override);
-    v2_t side = v2_from(speed * speed);
+    v2_t side = planner_v2(speed * speed);
     v2_t cap = side < block->move.corner ? side : block->move.corner;
     block->move.entry_cap = cap;
-    block->binds = cap < v2_from(speed_before * speed_before);
+    block->binds = cap < planner_v2(speed_before * speed_before);
 }
 
 // ---- New blocks ----------------------------------------------------------------------------------
 
-static block_t *next_slot(void) {
-    return &blocks.slots[blocks.ring.put_slot];
+block_t *planner_free_slot(uint32_t n) {
+    uint32_t slot = blocks.ring.put_slot + n;
+    return &blocks.slots[slot < blocks.ring.size ? slot : slot - blocks.ring.size];
 }
 
-// Puts the block in the next slot, which is complete but for its place, behind all others. Governor locked.
-static void publish(void) {
-    uint32_t slot = blocks.ring.put_slot;
-    block_t *block = &blocks.slots[slot];
-    block->way = blocks.end_way;
-    block->climb = blocks.end_climb;
-    planner.way_rest = planner.end_way_rest;
-    bind(slot);
+block_t *planner_newest(void) {
+    return &blocks.slots[slot_before(blocks.ring.put_slot)];
+}
+
+void planner_find_caps(uint32_t count) {
+    const block_t *before = planner_newest();
+    for (uint32_t n = 0; n < count; n++) {
+        find_entry_cap(before, planner_free_slot(n), &blocks.override);
+        before = planner_free_slot(n);
+    }
+}
+
+void planner_publish(uint32_t count) {
+    for (; count > 0; count--) {
+        block_t *block = planner_free_slot(0);
+        if (ring_used(&blocks.ring) == 0) {
+            clear_binding();
+            block->binds = false; // it starts at rest
+        }
+        block->way = blocks.end_way;
+        block->climb = blocks.end_climb;
+        planner.way_rest = planner.end_way_rest;
+        bind(blocks.ring.put_slot);
+        set_end(block);
+        ring_put(&blocks.ring);
+    }
+}
+
+void planner_shorten(float length) {
+    block_t *block = planner_newest();
+    block->move.length = length;
     set_end(block);
-    ring_put(&blocks.ring);
-}
-
-// Puts the block in next_slot(), whose own part is filled in, behind all others.
-static void push_block(void) {
-    uint32_t slot = blocks.ring.put_slot;
-    block_t *block = &blocks.slots[slot];
-    find_entry_cap(&blocks.slots[slot_before(slot)], block, &blocks.override);
-    hal_governor_lock();
-    if (ring_used(&blocks.ring) == 0) {
-        clear_binding();
-        block->binds = false; // it starts at rest
-    }
-    publish();
-    hal_governor_unlock();
-}
-
-static void fill_move(block_t *block, const geometry_t *g, float corner2,
-                      const int32_t target_steps[AXIS_COUNT]) {
-    memcpy(block->move.target, target_steps, sizeof block->move.target);
-    block->move.length = g->length;
-    block->move.axes_speed = g->axes_speed;
-    block->move.feed = g->feed;
-    block->move.acceleration = g->acceleration;
-    block->move.jerk = g->jerk;
-    block->move.corner = v2_from(corner2);
-}
-
-// ---- Blends --------------------------------------------------------------------------------------
-
-// The newest block is a line that nobody has begun to follow; the corner behind it may still be changed.
-static bool may_shorten(void) {
-    uint32_t used = ring_used(&blocks.ring);
-    return planner.corner && planner.blends && blocks.ring.size >= BLEND_RING_MIN &&
-           (used > 1 || (used == 1 && !blocks.front_started));
-}
-
-uint32_t planner_free(void) {
-    uint32_t free = ring_free(&blocks.ring);
-    return free - (free > 0 && may_shorten());
-}
-
-// A distance in which the machine can come to a standstill whatever it does now, at `speed` and any
-// acceleration: the latter is taken back first.
-static float stop_length(float speed, float acceleration, float jerk) {
-    float ramp = acceleration / jerk;
-    float top = speed + 0.5f * acceleration * ramp;
-    return top * (0.5f * top / acceleration + 2.0f * ramp);
-}
-
-// Whether the machine can still stop before the newest line ends, if that is `length` long. Only then may
-// its end be changed: what is done already does not depend on anything behind it.
-static bool is_far_ahead(const block_t *line, float length) {
-    float speed, left;
-    governor_whereabouts(&speed, &left);
-    if (speed <= 0.0f) {
-        return true;
-    }
-    const block_t *front = planner_front();
-    const block_t *second = planner_second();
-    if (line->move.jerk > 0.0f) {
-        left += (float)(line->way - second->way) / WAY_ONE + length;
-        float acceleration = lesser(front->move.acceleration, line->move.acceleration);
-        float jerk = lesser(front->move.jerk, line->move.jerk);
-        return stop_length(speed, acceleration, jerk) < left;
-    }
-    float overrun2 = speed * speed - 2.0f * front->move.acceleration * left;
-    v2_t gain = v2_from(2.0f * line->move.acceleration * length);
-    return overrun2 <= 0.0f || v2_from(overrun2) < line->climb - second->climb + gain;
-}
-
-// Cuts `lead` in 2^-32 off the end of the newest block, a line. False: it is too late for that. Governor
-// locked.
-static bool shorten(uint32_t slot, uint32_t lead) {
-    block_t *line = &blocks.slots[slot];
-    float rest = geometry_part(&planner.last, line->move.line.lead_in, lead);
-    if (!may_shorten() || !is_far_ahead(line, rest)) {
-        return false;
-    }
-    line->move.line.lead_out = lead;
-    line->move.length = rest;
-    set_end(line);
-    return true;
-}
-
-// Rounds the corner to the new line `g` off: a block for the parabola and one for what is left of the line.
-// False if that is not possible or no use.
-static bool push_blended(const geometry_t *g, const stepper_move_t *move,
-                         const int32_t target_steps[AXIS_COUNT]) {
-    geometry_t curve;
-    float reach;
-    if (move->corner != STEPPER_CORNER_BLEND || !may_shorten() || ring_free(&blocks.ring) < 2 ||
-        !geometry_blend(&curve, &planner.last, g, (float)move->blend_mm, &reach)) {
-        return false;
-    }
-    uint32_t slot = blocks.ring.put_slot;
-    uint32_t before = slot_before(slot);
-    uint32_t behind = slot + 1 < blocks.ring.size ? slot + 1 : 0;
-    block_t *blend = &blocks.slots[slot];
-    block_t *line = &blocks.slots[behind];
-    *blend = (block_t){.kind = BLOCK_BLEND};
-    fill_move(blend, &curve, FLT_MAX, planner.target_steps);
-    *line = (block_t){.kind = BLOCK_LINE};
-    fill_move(line, g, FLT_MAX, target_steps);
-    line->move.line.lead_in = geometry_fraction(g, reach);
-    line->move.length = geometry_part(g, line->move.line.lead_in, 0);
-    find_entry_cap(&blocks.slots[before], blend, &blocks.override);
-    find_entry_cap(blend, line, &blocks.override);
-    hal_governor_lock();
-    bool done = shorten(before, geometry_fraction(&planner.last, reach));
-    if (done) {
-        publish();
-        publish();
-    }
-    hal_governor_unlock();
-    return done;
-}
-
-// ---- New moves -----------------------------------------------------------------------------------
-
-// The move `g` is queued; the next one starts behind it.
-static void follow_move(const geometry_t *g, const stepper_move_t *move,
-                        const int32_t target_steps[AXIS_COUNT]) {
-    memcpy(planner.target, move->target, sizeof planner.target);
-    memcpy(planner.target_steps, target_steps, sizeof planner.target_steps);
-    planner.last = *g;
-    planner.corner = true;
-}
-
-static void find_delta(double delta[AXIS_COUNT], const stepper_move_t *move) {
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        delta[axis] = move->target[axis] - planner.target[axis];
-    }
-}
-
-static float corner_before(const geometry_t *g, const stepper_move_t *move) {
-    return planner.corner ? geometry_corner_speed2(&planner.last, g, move->corner) : 0.0f;
-}
-
-static bool ends_where_it_starts(const int32_t target_steps[AXIS_COUNT]) {
-    return memcmp(target_steps, planner.target_steps, sizeof planner.target_steps) == 0;
-}
-
-void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
-    memcpy(planner.commanded, move->target, sizeof planner.commanded);
-    if (ends_where_it_starts(target_steps)) {
-        return;
-    }
-    double delta[AXIS_COUNT];
-    find_delta(delta, move);
-    geometry_t g;
-    geometry_line(&g, delta, move);
-    geometry_even_out(&g);
-    if (!push_blended(&g, move, target_steps)) {
-        block_t *block = next_slot();
-        *block = (block_t){.kind = BLOCK_LINE};
-        fill_move(block, &g, corner_before(&g, move), target_steps);
-        push_block();
-    }
-    follow_move(&g, move, target_steps);
-    planner.blends = move->corner == STEPPER_CORNER_BLEND;
-}
-
-void planner_push_arc(const arc_t *arc, const stepper_move_t *move,
-                      const int32_t target_steps[AXIS_COUNT]) {
-    memcpy(planner.commanded, move->target, sizeof planner.commanded);
-    if (ends_where_it_starts(target_steps) && arc_is_below_a_step(arc)) {
-        return;
-    }
-    double delta[AXIS_COUNT];
-    find_delta(delta, move);
-    geometry_t g;
-    arc_geometry(&g, arc, delta, move);
-    block_t *block = next_slot();
-    *block = (block_t){.kind = BLOCK_ARC};
-    arc_fill(block, arc);
-    fill_move(block, &g, corner_before(&g, move), target_steps);
-    push_block();
-    follow_move(&g, move, target_steps);
-    planner.blends = false;
-}
-
-void planner_push_dwell(uint32_t ticks) {
-    *next_slot() = (block_t){.kind = BLOCK_DWELL, .dwell_ticks = ticks};
-    planner.corner = false;
-    push_block();
-}
-
-void planner_push_pins(uint32_t set, uint32_t clear) {
-    *next_slot() = (block_t){.kind = BLOCK_PINS, .pins = {.set = set, .clear = clear}};
-    planner.corner = false;
-    push_block();
 }
 
 // A function of its own so that its time can be measured: the governor waits for it.

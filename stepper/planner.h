@@ -3,6 +3,7 @@
 #ifndef STEPPER_PLANNER_H
 #define STEPPER_PLANNER_H
 
+#include "stepper/span.h"
 #include "stepper/stepper.h"
 
 typedef enum { BLOCK_LINE, BLOCK_ARC, BLOCK_BLEND, BLOCK_DWELL, BLOCK_PINS } block_kind_t;
@@ -11,13 +12,6 @@ typedef enum { BLOCK_LINE, BLOCK_ARC, BLOCK_BLEND, BLOCK_DWELL, BLOCK_PINS } blo
 // machine can have on any path lies just below V2_MAX. See planner_set_scale().
 typedef uint32_t v2_t;
 #define V2_MAX ((v2_t)1 << 31)
-
-// The least acceleration and jerk of some blocks in a row, rounded down: the upper half of a float, and its
-// exponent with two more bits. Codes compare like what they stand for.
-typedef struct {
-    uint16_t acceleration;
-    uint8_t jerk;
-} span_t;
 
 #define PLANNER_GROUP 16u // binding entries
 
@@ -96,17 +90,12 @@ typedef struct {
 
 extern planner_ring_t blocks;
 
-// Empties the ring and gives it `size` slots; overrides stay. Context: main with the governor locked.
+// Empties the ring and gives it `size` slots; overrides stay. moves_set_position() has to follow. Context:
+// main with the governor locked.
 void planner_reset(uint32_t size);
 
 // Recomputes the speed scale after the axes changed. Context: main, ring empty.
 void planner_set_scale(void);
-
-// Says where the machine stands; the next move starts there. Context: main, ring empty.
-void planner_set_position(const int32_t steps[AXIS_COUNT]);
-
-// The end of the last queued move, unrounded, in units.
-void planner_target(double target[AXIS_COUNT]);
 
 // Plans the whole ring anew with these overrides. Context: main.
 void planner_set_override(const planner_override_t *override);
@@ -114,21 +103,26 @@ void planner_set_override(const planner_override_t *override);
 // The most that is allowed anywhere on the move now, units/s. Contexts: main, governor.
 float planner_top_speed(const block_t *move);
 
-// Slots that may be filled. One is kept for the blend with the next line, if the last line allows one.
-uint32_t planner_free(void);
-
-// Puts a move, whose target has been checked, behind all others and re-plans the ring. A move
-// shorter than half a step of each axis is not queued: its way is part of the next one.
-void planner_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
-typedef struct arc arc_t; // stepper/arc.h
-void planner_push_arc(const arc_t *arc, const stepper_move_t *move,
-                      const int32_t target_steps[AXIS_COUNT]);
-void planner_push_dwell(uint32_t ticks);
-void planner_push_pins(uint32_t set, uint32_t clear);
-
 static inline bool block_is_move(const block_t *block) {
     return block->kind <= BLOCK_BLEND;
 }
+
+// ---- For new blocks, in moves.c. Context: main ---------------------------------------------------
+
+// The square of a speed as the planner counts it. Any context.
+v2_t planner_v2(float speed2);
+
+// The n-th free slot, to be filled in; and the newest block that is queued.
+block_t *planner_free_slot(uint32_t n);
+block_t *planner_newest(void);
+
+// Puts the next `count` slots, which are filled in, behind all others: finds their entry caps, then, with
+// the governor locked, plans and publishes them.
+void planner_find_caps(uint32_t count);
+void planner_publish(uint32_t count);
+
+// The newest block is only that long from now on. Governor locked, nothing was based on its end.
+void planner_shorten(float length);
 
 // ---- For the governor ----------------------------------------------------------------------------
 
@@ -192,10 +186,7 @@ static inline uint32_t planner_skip_bounds(planner_bound_t *bound, v2_t cap, spa
     return PLANNER_GROUP;
 }
 
-// The limits of one block; and the least of what a span stands for.
+// The limits of one block.
 span_t planner_span_of(const block_t *block);
-float span_acceleration(span_t span);
-float span_jerk(span_t span);
-span_t span_least(span_t a, span_t b);
 
 #endif

@@ -2,6 +2,7 @@
 #include "stepper/axis.h"
 #include "stepper/governor.h"
 #include "stepper/machine.h"
+#include "stepper/moves.h"
 #include "stepper/planner.h"
 
 // Planning more blocks than this anew holds the governor off for longer than it is ahead; for a full
@@ -104,7 +105,7 @@ static void stand_at(const int32_t steps[AXIS_COUNT]) {
     hal_governor_lock();
     governor_set_position(steps);
     hal_governor_unlock();
-    planner_set_position(steps);
+    moves_set_position(steps);
     machine.position_known = true;
 }
 

@@ -4,7 +4,7 @@
 #include "stepper/arc.h"
 #include "stepper/axis.h"
 #include "stepper/machine.h"
-#include "stepper/planner.h"
+#include "stepper/moves.h"
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
 
@@ -55,11 +55,11 @@ err_t stepper_move(const stepper_move_t *move) {
     int32_t steps[AXIS_COUNT];
     err_t err = check_move();
     if (err == ERR_OK) {
-        planner_target(from);
+        moves_target(from);
         err = check_target(move, from, steps);
     }
     if (err == ERR_OK) {
-        planner_push_line(move, steps);
+        moves_push_line(move, steps);
         hal_governor_request();
     }
     return err;
@@ -85,7 +85,7 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
         err = machine_check_axis(wanted->plane[n]);
     }
     if (err == ERR_OK) {
-        planner_target(from);
+        moves_target(from);
         err = check_target(&wanted->move, from, steps);
     }
     if (err == ERR_OK) {
@@ -95,7 +95,7 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
         err = check_arc(&arc);
     }
     if (err == ERR_OK) {
-        planner_push_arc(&arc, &wanted->move, steps);
+        moves_push_arc(&arc, &wanted->move, steps);
         hal_governor_request();
     }
     return err;
@@ -104,7 +104,7 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
 err_t stepper_dwell(double milliseconds) {
     err_t err = machine_check_queue();
     if (err == ERR_OK) {
-        planner_push_dwell((uint32_t)ceil(milliseconds * TICKS_PER_MS));
+        moves_push_dwell((uint32_t)ceil(milliseconds * TICKS_PER_MS));
         hal_governor_request();
     }
     return err;
@@ -120,12 +120,12 @@ err_t stepper_spindle_switch(bool on) {
     }
     uint32_t mask = pins_mask(machine.spindle_gpio);
     bool high = on != machine.spindle_invert;
-    planner_push_pins(high ? mask : 0, high ? 0 : mask);
+    moves_push_pins(high ? mask : 0, high ? 0 : mask);
     hal_governor_request();
     return ERR_OK;
 }
 
 void stepper_target(double target[AXIS_COUNT]) {
     machine_follow_stops();
-    planner_target(target);
+    moves_target(target);
 }

@@ -4,7 +4,7 @@
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/machine.h"
-#include "stepper/planner.h"
+#include "stepper/moves.h"
 #include "stepper/step_isr.h"
 
 void stepper_status(stepper_status_t *status) {
@@ -68,7 +68,7 @@ int stepper_active(void) {
 }
 
 uint32_t stepper_blocks_free(void) {
-    return machine.initialized ? planner_free() : 0;
+    return machine.initialized ? moves_free() : 0;
 }
 
 uint32_t stepper_status_bits(void) {

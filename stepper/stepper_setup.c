@@ -3,6 +3,7 @@
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/machine.h"
+#include "stepper/moves.h"
 #include "stepper/planner.h"
 #include "stepper/step_isr.h"
 
@@ -40,7 +41,7 @@ static void reset_motion(void) {
     hal_governor_unlock();
     machine.drops_seen = governor_drops();
     planner_set_scale();
-    planner_set_position(zero);
+    moves_set_position(zero);
     geometry_settings = (geometry_settings_t){
         .deviation = (float)STEPPER_JUNCTION_DEVIATION_MM,
         .arc_tolerance = (float)machine.config.arc_tolerance_mm,

@@ -34,8 +34,8 @@ SETUP = [
 WAIT = "DO WHILE PEEK(STEPPER ACTIVE)=1: PAUSE 10: LOOP"
 END = "STEPPER STATUS"
 
-# Lines, corners, tiny moves, a reversal, four axes at once, a dwell, fast and slow; arcs in two planes, round
-# corners.
+# Lines, corners, tiny moves, a reversal, four axes at once, a dwell, fast and slow; arcs in two
+# planes, round corners.
 FIGURE = """\
 G90
 G0 X10 Y5 Z1
