@@ -22,8 +22,8 @@
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
 #define SLICE_TICKS 100u
 #define SLICE_TICKS_MIN 20u
-// A jerk limit chooses anew after this, that is mostly after two slices.
-#define CHOSEN_TICKS 150.0f
+// A jerk limit chooses anew after this, that is mostly after two or three slices.
+#define CHOSEN_TICKS 190.0f
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
 #define CORNER_TICKS_MIN 2.0f // the same before a corner, which must not be cut
@@ -34,7 +34,7 @@
 // interrupt, less reacts faster.
 #define SPARE_TICKS 60u
 // No more than this is ever ahead, so that what is asked for shows at the pins within 2 ms.
-#define AHEAD_TICKS 175u
+#define AHEAD_TICKS 172u
 #define STANDSTILL 0.001f // units/s
 // What a corner may be reached too fast, from rounding, as the time to brake that off.
 #define HAIR_S 0.0002f
@@ -158,9 +158,11 @@ static float pass_end(float left, float v1, float dt) {
     float acceleration = (v1 - v) / dt;
     float exit_speed2 = planner_exit_speed2();
     float end_speed = sqrtf(greater(v * v + 2.0f * acceleration * left, 0.0f));
-    float excess = end_speed - sqrtf(exit_speed2);
-    if (excess > 0.0f && excess < governor.block->move.acceleration * HAIR_S) {
-        end_speed -= excess;
+    if (governor.block->move.jerk <= 0.0f) {
+        float excess = end_speed - sqrtf(exit_speed2);
+        if (excess > 0.0f && excess < governor.block->move.acceleration * HAIR_S) {
+            end_speed -= excess;
+        }
     }
     float time = v + end_speed > 0.0f ? lesser(2.0f * left / (v + end_speed), dt) : dt;
     float ticks = time * (float)HAL_TICK_HZ;
@@ -183,13 +185,7 @@ static float pass_end(float left, float v1, float dt) {
     return ticks;
 }
 
-static profile_t profile_here(float left) {
-    bool braking = governor.stopping || governor.holding;
-    if (governor.overrides != blocks.overrides) {
-        governor.overrides = blocks.overrides;
-        governor.top_speed = planner_top_speed(governor.block);
-        governor.choose_again = true;
-    }
+static profile_t profile_here(float left, bool braking) {
     return (profile_t){
         .block = governor.block,
         .left = left,
@@ -202,17 +198,24 @@ static profile_t profile_here(float left) {
 // The speed after the next `*ticks`, which it may lessen. The jerk-limited profile looks across blocks, so
 // what it chose holds behind them as well, for some slices.
 static float next_speed(float left, float *ticks) {
-    profile_t here = profile_here(left);
-    if (governor.block->move.jerk <= 0.0f) {
+    bool braking = governor.stopping || governor.holding;
+    if (governor.overrides != blocks.overrides) {
+        governor.overrides = blocks.overrides;
+        governor.top_speed = planner_top_speed(governor.block);
         governor.choose_again = true;
+    }
+    if (governor.block->move.jerk <= 0.0f) {
+        profile_t here = profile_here(left, braking);
         float v1 = profile_next_speed(&here, ticks);
         float acceleration = governor.block->move.acceleration;
         governor.acceleration = v1 > here.speed   ? acceleration
                                 : v1 < here.speed ? -acceleration
                                                   : 0.0f;
+        governor.choose_again = true;
         return v1;
     }
     if (governor.choose_again || governor.chosen_ticks >= CHOSEN_TICKS) {
+        profile_t here = profile_here(left, braking);
         governor.acceleration = scurve_acceleration(&here, governor.chosen_ticks * TICK_S);
         governor.chosen_ticks = 0.0f;
         governor.choose_again = false;
@@ -220,7 +223,7 @@ static float next_speed(float left, float *ticks) {
     float v1 = scurve_speed(governor.speed, governor.acceleration, *ticks * TICK_S);
     // On the way to a standstill a slice that is shorter than planned leaves a part of the speed; the
     // next one leaves a part of that, and so on.
-    return here.top <= 0.0f && v1 < STANDSTILL ? 0.0f : v1;
+    return braking && v1 < STANDSTILL ? 0.0f : v1;
 }
 
 // One slice of a move, through as many blocks as it touches and the segment ring has room for.

@@ -189,7 +189,7 @@ void moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS
 }
 
 void moves_push_arc(const arc_t *arc, const stepper_move_t *move,
-                      const int32_t target_steps[AXIS_COUNT]) {
+                    const int32_t target_steps[AXIS_COUNT]) {
     memcpy(moves.commanded, move->target, sizeof moves.commanded);
     if (ends_where_it_starts(target_steps) && arc_is_below_a_step(arc)) {
         return;

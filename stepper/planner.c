@@ -58,7 +58,7 @@ v2_t planner_v2(float speed2) {
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
 }
 
-span_t planner_span_of(const block_t *block) {
+static inline span_t limits_of(const block_t *block) {
     return block_is_move(block) ? span_of(block->move.acceleration, block->move.jerk)
                                 : span_unlimited;
 }
@@ -90,56 +90,53 @@ static void set_end(const block_t *block) {
 }
 
 // Takes the farthest binding entry away, whose limits count for `span` from now on.
-static void unbind_last(span_t *span) {
-    uint32_t last = binding_index(blocks.binding.count - 1);
-    const block_t *block = &blocks.slots[blocks.binding.slot[last]];
+static inline void unbind_last(binding_t *binding, span_t *span) {
+    uint32_t last = binding_index(--binding->count);
+    const block_t *block = &blocks.slots[binding->slot[last]];
     *span = span_least(*span, (span_t){block->span_acceleration, block->span_jerk});
-    blocks.binding.count--;
-    if (blocks.binding.count > 0) {
+    if (binding->count > 0) {
         last = last > 0 ? last - 1 : STEPPER_BLOCKS_MAX - 1;
-        block = &blocks.slots[blocks.binding.slot[last]];
-        blocks.binding.last_key = block->climb + blocks.binding.cap[last];
+        binding->last_key = blocks.slots[binding->slot[last]].climb + binding->cap[last];
     }
 }
 
 // Counts a new entry for the group of its neighbours.
-static inline void join_group(uint32_t index, v2_t cap, span_t span) {
+static inline void join_group(binding_t *binding, uint32_t index, v2_t cap, span_t span) {
     uint32_t group = index / PLANNER_GROUP;
-    if (index % PLANNER_GROUP == 0 || blocks.binding.count == 0) {
-        blocks.binding.group_cap[group] = cap;
-        blocks.binding.group_span[group] = span;
+    if (index % PLANNER_GROUP == 0 || binding->count == 0) {
+        binding->group_cap[group] = cap;
+        binding->group_span[group] = span;
         return;
     }
-    if (cap < blocks.binding.group_cap[group]) {
-        blocks.binding.group_cap[group] = cap;
+    if (cap < binding->group_cap[group]) {
+        binding->group_cap[group] = cap;
     }
-    blocks.binding.group_span[group] = span_least(blocks.binding.group_span[group], span);
+    binding->group_span[group] = span_least(binding->group_span[group], span);
 }
 
 // Takes up the entry cap of the block, the one behind those that were taken up before; its way and climb
-// are known.
-__attribute__((always_inline)) static inline void bind(uint32_t slot) {
+// are known. Returns the limits from the last binding entry to behind it; `before`: to its beginning.
+__attribute__((always_inline)) static inline span_t bind(uint32_t slot, span_t before) {
     block_t *block = &blocks.slots[slot];
-    span_t own = planner_span_of(block);
+    span_t own = limits_of(block);
     if (!block->binds) {
-        blocks.end_span = span_least(blocks.end_span, own);
-        return;
+        return span_least(before, own);
     }
+    binding_t *binding = &blocks.binding;
     v2_t cap = block_is_move(block) ? block->move.entry_cap : 0;
     uint64_t key = block->climb + cap;
-    span_t span = blocks.end_span;
-    while (blocks.binding.count > 0 && blocks.binding.last_key >= key) {
-        unbind_last(&span);
+    while (binding->count > 0 && binding->last_key >= key) {
+        unbind_last(binding, &before);
     }
-    block->span_acceleration = span.acceleration;
-    block->span_jerk = span.jerk;
-    uint32_t index = binding_index(blocks.binding.count);
-    blocks.binding.slot[index] = (uint16_t)slot;
-    blocks.binding.cap[index] = cap;
-    join_group(index, cap, span);
-    blocks.binding.count++;
-    blocks.binding.last_key = key;
-    blocks.end_span = own;
+    block->span_acceleration = before.acceleration;
+    block->span_jerk = before.jerk;
+    uint32_t index = binding_index(binding->count);
+    binding->slot[index] = (uint16_t)slot;
+    binding->cap[index] = cap;
+    join_group(binding, index, cap, before);
+    binding->count++;
+    binding->last_key = key;
+    return own;
 }
 
 static float top_speed(const block_t *move, const planner_override_t *override) {
@@ -199,7 +196,7 @@ void planner_publish(uint32_t count) {
         block->way = blocks.end_way;
         block->climb = blocks.end_climb;
         planner.way_rest = planner.end_way_rest;
-        bind(blocks.ring.put_slot);
+        blocks.end_span = bind(blocks.ring.put_slot, blocks.end_span);
         set_end(block);
         ring_put(&blocks.ring);
     }
@@ -215,14 +212,12 @@ void planner_shorten(float length) {
 __attribute__((noinline)) static void bind_all(void) {
     clear_binding();
     uint32_t slot = blocks.ring.take_slot;
-    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 0; waiting--) {
-        if (slot == blocks.ring.take_slot) {
-            blocks.end_span = planner_span_of(&blocks.slots[slot]);
-        } else {
-            bind(slot);
-        }
+    span_t span = limits_of(&blocks.slots[slot]);
+    for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
         slot = slot + 1 < blocks.ring.size ? slot + 1 : 0;
+        span = bind(slot, span);
     }
+    blocks.end_span = span;
 }
 
 // The caps of the blocks are no business of the governor's, so the long part runs unlocked; blocks that
@@ -238,6 +233,10 @@ void planner_set_override(const planner_override_t *override) {
     blocks.overrides++;
     bind_all();
     hal_governor_unlock();
+}
+
+span_t planner_span_of(const block_t *block) {
+    return limits_of(block);
 }
 
 // ---- For the governor ----------------------------------------------------------------------------

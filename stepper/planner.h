@@ -63,20 +63,22 @@ typedef struct {
     float feed, rapid;
 } planner_override_t;
 
+// The blocks whose entry cap binds: none of the later ones makes the machine slower there anyway. In the
+// order of the path, see planner.c.
+typedef struct {
+    uint32_t first, count; // index of the nearest one
+    uint64_t last_key;     // of the farthest one, see planner.c; main
+    // The least of each group of neighbours; below that where entries have been taken away.
+    v2_t group_cap[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
+    span_t group_span[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
+    uint16_t slot[STEPPER_BLOCKS_MAX];
+    v2_t cap[STEPPER_BLOCKS_MAX];
+} binding_t;
+
 typedef struct {
     ring_t ring;
     block_t slots[STEPPER_BLOCKS_MAX];
-    // The blocks whose entry cap binds: none of the later ones makes the machine slower there
-    // anyway. In the order of the path, see planner.c.
-    struct {
-        uint16_t slot[STEPPER_BLOCKS_MAX];
-        v2_t cap[STEPPER_BLOCKS_MAX];
-        // The least of each group of neighbours; below that where entries have been taken away.
-        v2_t group_cap[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
-        span_t group_span[STEPPER_BLOCKS_MAX / PLANNER_GROUP];
-        uint32_t first, count; // index of the nearest one
-        uint64_t last_key;     // of the farthest one, see planner.c; main
-    } binding;
+    binding_t binding;
     // Behind the newest block.
     uint32_t end_way;
     uint64_t end_climb;

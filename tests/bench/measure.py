@@ -51,20 +51,20 @@ class Part:
     lines: int
     line: Cycles
     governor: Cycles
-    first_governor: Cycles
-    """The call at STEPPER RUN, which fills the ring of segments."""
     seconds: float
 
 
-def ready(uf2: Path, blocks: int, axes: int = 4) -> Emulator:
-    """A board at its prompt with this many axes set up and its position known."""
+def ready(uf2: Path, blocks: int, axes: int = 4, acceleration: int = 20000) -> Emulator:
+    """A board at its prompt with this many axes set up (mm/s2) and its position known."""
     board = Emulator(uf2)
     board.connect()
     board.until("> ")
     board.command(f"STEPPER INIT ,{blocks}")
     for index, name in enumerate(AXES[:axes]):
         step = STEP_GPIOS[index]
-        board.command(f"STEPPER AXIS {name},GP{step},GP{step + 1},,,{STEPS_PER_UNIT},30000,20000")
+        board.command(
+            f"STEPPER AXIS {name},GP{step},GP{step + 1},,,{STEPS_PER_UNIT},30000,{acceleration}"
+        )
     board.command("STEPPER POSITION HOME")
     return board
 
@@ -140,22 +140,114 @@ def lateness(uf2: Path, load: str) -> list[Lateness]:
     return rows
 
 
-def part(uf2: Path, seconds: float) -> Part:
-    """Real lines of G-code from the prompt to the queue, then their motion."""
+def part(uf2: Path, seconds: float, jerk: int = 0) -> Part:
+    """Real lines of G-code from the prompt to the queue, then their motion; jerk 0: trapezoid."""
     lines = [line for line in NAME_PLATE.read_text().splitlines() if re.match(r"[A-Z]", line)]
-    with ready(uf2, 1024) as board:
+    with ready(uf2, 1024, acceleration=1000) as board:
         board.command("STEPPER SPINDLE GP15")
+        limit_jerk(board, jerk)
         board.measure("gcode_line", "hal_on_governor")
         for line in lines:
             board.command(f'STEPPER GS "{line}"')
         line_cycles = board.profile()["gcode_line"]
         board.clear_profile()
         board.command("STEPPER RUN")
-        first = board.profile()["hal_on_governor"]
+        board.run_ms(seconds * 1000)
+        no_faults(board)
+        return Part(len(lines), line_cycles, board.profile()["hal_on_governor"], seconds)
+
+
+def limit_jerk(board: Emulator, jerk: int) -> None:
+    """S-curves from the next move on, mm/s3; 0: as it is."""
+    if jerk > 0:
+        board.command(f"STEPPER JERK {jerk}")
+        board.command("STEPPER SCURVE 1")
+
+
+@dataclass(frozen=True)
+class Crowd:
+    """A full queue of tiny moves while it is executed."""
+
+    name: str
+    governor: Cycles
+    seconds: float
+
+
+def share(cycles: Cycles, seconds: float) -> float:
+    """What these calls took of the CPU's time."""
+    return cycles.calls * cycles.mean / (seconds * 1e6 * CYCLES_PER_US)
+
+
+CROWDS = {
+    "0.02 mm in line": 'X"+STR$(i*.02,4,5)',
+    "0.02 mm around r = 5 mm": 'X"+STR$(5*COS(i*.004)-5,4,5)+" Y"+STR$(5*SIN(i*.004),4,5)',
+    "0.02 mm zigzag": 'X"+STR$(i*.02,4,5)+" Y"+STR$((i MOD 2)*.02,4,5)',
+}
+
+
+def crowd(uf2: Path, name: str, jerk: int) -> Crowd:
+    """A thousand moves of one kind at up to 100 mm/s and 1000 mm/s2: what the governor needs."""
+    seconds = 0.2
+    with ready(uf2, 1024, axes=2, acceleration=1000) as board:
+        limit_jerk(board, jerk)
+        board.command(
+            f'FOR i=1 TO 1023: STEPPER GS "G1 F6000 {CROWDS[name]}: NEXT', timeout_ms=60_000
+        )
+        board.measure("hal_on_governor")
+        board.command("STEPPER RUN")
         board.clear_profile()
         board.run_ms(seconds * 1000)
         no_faults(board)
-        return Part(len(lines), line_cycles, board.profile()["hal_on_governor"], first, seconds)
+        if "underruns: 0" not in board.command("STEPPER STATUS"):
+            raise RuntimeError(f"{name}: the tick ran dry")
+        return Crowd(name, board.profile()["hal_on_governor"], seconds)
+
+
+def planned_anew(uf2: Path) -> Cycles:
+    """What the governor waits for when the plan of 1024 moves, all with corners, is made anew."""
+    with ready(uf2, 1024) as board:
+        board.command(
+            'FOR i=1 TO 1024: STEPPER GS "G1 F3000 X"+STR$(i*.1)+" Y"+STR$((i MOD 7)*.05): NEXT',
+            timeout_ms=60_000,
+        )
+        board.measure("bind_all")
+        board.command("STEPPER OVERRIDE FEED,50")
+        no_faults(board)
+        return board.profile()["bind_all"]
+
+
+@dataclass(frozen=True)
+class Fed:
+    """A program that queues moves of 0.02 mm while they are executed."""
+
+    feed_mm_s: float
+    jerk: int
+    slowest_mm_s: float
+    """Over 50 ms, between the first and the last quarter of a second."""
+
+
+def fed_by_loop(uf2: Path, feed_mm_s: float, jerk: int) -> Fed:
+    """Moves of 0.02 mm from a BASIC FOR loop that waits for room; speed from the step edges."""
+    with ready(uf2, 1024, axes=1, acceleration=1000) as board:
+        limit_jerk(board, jerk)
+        board.command("STEPPER RUN")
+        board.clear_edges()
+        count = int(1.2 * feed_mm_s / 0.02)
+        board.command(
+            f"FOR i=1 TO {count}: DO WHILE PEEK(STEPPER BUFFER)=0: LOOP: "
+            f'STEPPER GS "G1 F{feed_mm_s * 60:.0f} X"+STR$(i*.02): NEXT',
+            timeout_ms=60_000,
+        )
+        board.run_ms(500)
+        no_faults(board)
+        edges = Edges.from_rows(board.edges()).of(STEP_GPIOS[0])
+        if "underruns: 0" not in board.command("STEPPER STATUS"):
+            raise RuntimeError("the tick ran dry")
+    times_s = edges.time_ns[edges.level == 1] * 1e-9
+    inner = times_s[(times_s > times_s[0] + 0.25) & (times_s < times_s[-1] - 0.25)]
+    bins = np.arange(inner[0], inner[-1], 0.05)
+    counts = np.histogram(inner, bins)[0]
+    return Fed(feed_mm_s, jerk, float(counts.min()) / 0.05 / STEPS_PER_UNIT)
 
 
 def statement(board: Emulator, body: str, few: int, many: int) -> float:
