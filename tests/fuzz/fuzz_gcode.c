@@ -2,6 +2,7 @@
 // every one of them must be accepted and end where the model says, whatever rubbish was refused
 // before it.
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -49,6 +50,13 @@ static void configure_axis(axis_id_t axis) {
     }
 }
 
+static void set_up_jerk(void) {
+    static const double jerks[] = {500, 10000, 10000, 50000, 2e6, 1e9};
+    const double none[AXIS_COUNT] = {0};
+    check_ok(stepper_scurve(fuzz_random_percent(60)), "S-curve");
+    check_ok(stepper_jerk(FUZZ_RANDOM_PICK(jerks), none), "jerk");
+}
+
 static void set_up(void) {
     static const uint32_t block_counts[] = {1, 2, 3, 8, 32, 32, 1024};
     stepper_init_t config = {
@@ -64,9 +72,11 @@ static void set_up(void) {
         }
     }
     model.modal.spindle = fuzz_random_percent(70);
+    model.modal.fine = fuzz_random_percent(30);
     if (model.modal.spindle) {
         check_ok(stepper_spindle(20, fuzz_random_percent(30)), "spindle");
     }
+    set_up_jerk();
     if (fuzz_random_percent(30)) {
         check_ok(stepper_junction(fuzz_random_between(0, 50) / 100.0), "junction");
     }
@@ -105,6 +115,9 @@ static void follow_line(const fuzz_gcode_line_t *line) {
     }
     model.modal.relative = line->relative;
     model.modal.has_feed |= line->feed > 0;
+    if (line->arc) {
+        model.modal.has_motion = false; // not one that a line without G could go on with
+    }
     if (line->sets_motion) {
         model.modal.has_motion = true;
         model.modal.rapid = line->rapid;
@@ -162,6 +175,7 @@ static err_t send(const fuzz_text_t *text) {
 // Time for a queue that is full, or a stop that is under way.
 static void make_room(void) {
     check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+    check_ok(stepper_hold(false), "resume");
     uint64_t until_us = hal_time_us() + 10000000u;
     while ((stepper_blocks_free() == 0 || stepper_active() == 1) && hal_time_us() < until_us) {
         hal_idle(until_us);
@@ -200,14 +214,17 @@ static void send_right_line(void) {
 // After a line the model does not understand: modes in force are made known again, and the machine
 // is brought back to where right lines are in reach.
 static void resynchronise(void) {
-    static const char known[] = "G90 G1 F1000";
+    static const char known[] = "G90 G17 G1 F1000";
     check_ok(gcode_line(known, sizeof known - 1), known);
-    model.modal =
-        (fuzz_gcode_modal_t){.has_motion = true, .has_feed = true, .spindle = model.modal.spindle};
+    model.modal = (fuzz_gcode_modal_t){.has_motion = true,
+                                       .has_feed = true,
+                                       .spindle = model.modal.spindle,
+                                       .fine = model.modal.fine};
     follow_machine();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if (model.target[axis] < -150 || model.target[axis] > 150 || model.offset[axis] < -100 ||
             model.offset[axis] > 100) {
+            check_ok(stepper_hold(false), "resume");
             fuzz_machine_settle(1.0);
             stepper_clear();
             check_ok(stepper_set_home(), "home");
@@ -254,8 +271,57 @@ static void send_wild_line(void) {
 
 // ---- What else happens meanwhile ----------------------------------------------------------------
 
+static void settle(void) {
+    check_ok(stepper_hold(false), "resume");
+    fuzz_machine_settle(SETTLE_S);
+    follow_machine();
+}
+
+// From rest, with second thoughts.
+static void jog(void) {
+    settle();
+    fuzz_session_note("jog");
+    for (int i = fuzz_random_between(1, 4); i > 0; i--) {
+        axis_id_t axis = (axis_id_t)fuzz_random_below(AXIS_COUNT);
+        double distance =
+            fuzz_random_percent(20) ? HUGE_VAL : fuzz_random_between(-9000, 9000) / 1e3;
+        if (stepper_jog(axis, distance, fuzz_random_between(0, 5000)) != ERR_OK) {
+            check_message();
+        }
+        uint64_t until_us = hal_time_us() + fuzz_random_below(200000);
+        while (hal_time_us() < until_us) {
+            hal_idle(until_us);
+        }
+    }
+    check_ok(stepper_jog_stop(), "jog stop");
+    settle();
+    resynchronise();
+}
+
+static void turn_a_knob(void) {
+    switch (fuzz_random_below(4)) {
+    case 0:
+        fuzz_session_note("hold");
+        check_ok(stepper_hold(true), "hold");
+        break;
+    case 1:
+        fuzz_session_note("resume");
+        check_ok(stepper_hold(false), "resume");
+        break;
+    default:
+        fuzz_session_note("override");
+        check_ok(stepper_override(fuzz_random_between(STEPPER_OVERRIDE_MIN, STEPPER_OVERRIDE_MAX),
+                                  fuzz_random_between(STEPPER_OVERRIDE_MIN, 100)),
+                 "override");
+        break;
+    }
+}
+
 static void press_a_button(void) {
-    switch (fuzz_random_below(5)) {
+    switch (fuzz_random_below(6)) {
+    case 5:
+        jog();
+        break;
     case 0:
         fuzz_session_note("stop");
         stepper_stop();
@@ -314,10 +380,12 @@ void fuzz_gcode_session(void) {
             let_time_pass();
             fuzz_machine_check_pulses();
         }
+        if (fuzz_random_percent(5)) {
+            turn_a_knob();
+        }
         if (fuzz_random_percent(2)) {
-            fuzz_machine_settle(SETTLE_S);
-            follow_machine();
+            settle();
         }
     }
-    fuzz_machine_settle(SETTLE_S);
+    settle();
 }

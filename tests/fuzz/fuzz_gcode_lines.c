@@ -71,7 +71,7 @@ static void write_words(fuzz_text_t *text, words_t *words) {
 }
 
 // Axis words that lead to a place within reach, or none if there is no axis.
-static void add_axes(words_t *words, fuzz_gcode_line_t *line, bool relative,
+static void add_axes(words_t *words, fuzz_gcode_line_t *line, bool relative, bool fine,
                      const double work_position[AXIS_COUNT]) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if (!stepper_axis_configured(axis) || fuzz_random_percent(50)) {
@@ -79,6 +79,9 @@ static void add_axes(words_t *words, fuzz_gcode_line_t *line, bool relative,
         }
         int reach = fuzz_random_percent(90) ? 2000 : REACH_MILLI;
         int milli = fuzz_random_between(-reach, reach);
+        if (fine && relative) {
+            milli = fuzz_random_between(-5, 15);
+        }
         if (relative && fabs(work_position[axis] + milli / 1000.0) > REACH_MILLI / 1000.0) {
             milli = work_position[axis] > 0 ? -abs(milli) : abs(milli);
         }
@@ -110,8 +113,48 @@ static void add_move(words_t *words, fuzz_gcode_line_t *line, const fuzz_gcode_m
     if (line->sets_motion) {
         add_word(words, 'G', line->rapid ? 0 : 1000);
     }
-    add_axes(words, line, line->relative, work_position);
+    add_axes(words, line, line->relative, modal->fine, work_position);
     line->kind = line->axes != 0 ? FUZZ_GCODE_MOVE : FUZZ_GCODE_NOTHING;
+}
+
+// Some quarter turns about a centre in thousandths end in thousandths. Relative mode only: where the machine
+// stands after a stop may have no such coordinates.
+static void add_arc(words_t *words, fuzz_gcode_line_t *line) {
+    bool clockwise = fuzz_random_percent(50);
+    int centre[2] = {fuzz_random_between(10, 3000), fuzz_random_between(-3000, -10)};
+    int end[2] = {-centre[0], -centre[1]};
+    int quarters = (int)fuzz_random_below(4); // 0: a full circle
+    for (int i = 0; i < (clockwise ? 4 - quarters : quarters); i++) {
+        int x = end[0];
+        end[0] = -end[1];
+        end[1] = x;
+    }
+    add_word(words, 'G', clockwise ? 2000 : 3000);
+    add_word(words, 'I', centre[0]);
+    add_word(words, 'J', centre[1]);
+    for (axis_id_t axis = AXIS_X; axis <= AXIS_Y; axis++) {
+        line->value[axis] = (centre[axis] + end[axis]) / 1000.0;
+        line->axes |= 1u << axis;
+        add_word(words, letters[axis], centre[axis] + end[axis]);
+    }
+    if (stepper_axis_configured(AXIS_Z) && fuzz_random_percent(20)) {
+        int milli = fuzz_random_between(-500, 500);
+        add_word(words, 'Z', milli);
+        line->axes |= 1u << AXIS_Z;
+        line->value[AXIS_Z] = milli / 1000.0;
+    }
+    line->kind = FUZZ_GCODE_MOVE;
+    line->arc = true;
+}
+
+// How corners are passed from now on; with a tolerance in P.
+static void add_path_mode(words_t *words) {
+    static const int codes[] = {61000, 61100, 64000, 64000};
+    int code = FUZZ_RANDOM_PICK(codes);
+    add_word(words, 'G', code);
+    if (code == 64000 && fuzz_random_percent(60)) {
+        add_word(words, 'P', fuzz_random_between(0, 300));
+    }
 }
 
 void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
@@ -129,7 +172,7 @@ void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
         add_word(&words, 'P', fuzz_random_between(0, 50000));
         break;
     case 2:
-        add_axes(&words, line, false, work_position);
+        add_axes(&words, line, false, false, work_position);
         line->kind = line->axes != 0 ? FUZZ_GCODE_OFFSET : FUZZ_GCODE_NOTHING;
         if (line->axes != 0) {
             add_word(&words, 'G', 92000);
@@ -141,6 +184,17 @@ void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
             add_word(&words, 'M', fuzz_random_percent(50) ? 3000 : 5000);
         }
         break;
+    case 4:
+        add_path_mode(&words);
+        break;
+    case 5:
+    case 6:
+        if (line->relative && (modal->has_feed || line->feed > 0) &&
+            stepper_axis_configured(AXIS_X) && stepper_axis_configured(AXIS_Y) &&
+            fabs(work_position[AXIS_X]) + fabs(work_position[AXIS_Y]) < REACH_MILLI / 1000.0) {
+            add_arc(&words, line);
+        }
+        break;
     default:
         add_move(&words, line, modal, work_position);
         break;
@@ -149,10 +203,10 @@ void fuzz_gcode_right_line(fuzz_text_t *text, fuzz_gcode_line_t *line,
 }
 
 void fuzz_gcode_any_line(fuzz_text_t *text) {
-    static const char *const codes[] = {"G0",    "G1",  "G1", "G4",  "G90",   "G91", "G92",  "M3",
-                                        "M5",    "G28", "G2", "G3",  "G21",   "G20", "M2",   "M30",
-                                        "G92.1", "G-1", "G",  "N10", "T1",    "%",   "G17",  "G18",
-                                        "G19",   "G2",  "G3", "G61", "G61.1", "G64", "G91.1"};
+    static const char *const codes[] = {
+        "G0",  "G1",  "G1",  "G4",  "G90",   "G91",   "G92",   "M3", "M5",  "G28", "G2",
+        "G3",  "G21", "G20", "M2",  "M30",   "G92.1", "G-1",   "G",  "N10", "T1",  "%",
+        "G17", "G18", "G19", "G61", "G61.1", "G64",   "G91.1", "G2", "G3"};
     static const char words[] = "XYZAFPXYZAFPIJKRSNTELBCUVW$*";
     for (unsigned i = fuzz_random_below(8); i > 0; i--) {
         add_gap(text);

@@ -26,6 +26,7 @@ typedef struct {
     uint32_t axes;      // bit n: axis n has a word
     double value[AXIS_COUNT];
     double feed; // 0: none
+    bool arc;    // G2 or G3, which is then in force
 } fuzz_gcode_line_t;
 
 // What is in force before the line.
@@ -35,6 +36,7 @@ typedef struct {
     bool relative;
     bool has_feed;
     bool spindle; // there is a spindle pin
+    bool fine;    // moves are very short and fast
 } fuzz_gcode_modal_t;
 
 // Makes a line that has to be accepted and fits `modal`; the axes must be configured, and targets
