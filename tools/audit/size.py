@@ -24,7 +24,7 @@ ORIGINS = [
 
 # A section's line in the map; a long name stands on a line of its own before the numbers.
 SECTION = re.compile(r"^ (\.?[\w.*]+)?\s+0x([0-9a-f]+)\s+0x([0-9a-f]+) (\S.*)$")
-MEMORY = re.compile(r"^(FLASH|RAM)\s+0x[0-9a-f]+\s+0x([0-9a-f]+)", re.MULTILINE)
+MEMORY = re.compile(r"^(FLASH|RAM|SCRATCH_[XY])\s+0x[0-9a-f]+\s+0x([0-9a-f]+)", re.MULTILINE)
 
 
 def origin_of(path: str) -> str:
@@ -62,7 +62,9 @@ def table(text: str, storage_bytes: int) -> str:
     for name, _ in (flash + ram).most_common():
         rows.append(f"| {name} | {flash[name]:,} | {ram[name]:,} |")
     rows.append(f"| total | {flash.total():,} | {ram.total():,} |")
-    rows.append(f"| available | {sizes['FLASH'] - storage_bytes:,} | {sizes['RAM']:,} |")
+    # The stack of the interrupts lies in one of the two banks behind the main memory.
+    ram_bytes = sum(length for name, length in sizes.items() if name != "FLASH")
+    rows.append(f"| available | {sizes['FLASH'] - storage_bytes:,} | {ram_bytes:,} |")
     return "\n".join(rows)
 
 
