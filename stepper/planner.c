@@ -268,12 +268,14 @@ void planner_start(void) {
 
 void planner_release(void) {
     blocks.front_started = false;
+    blocks.executed = blocks.executed + 1;
     ring_take(&blocks.ring);
 }
 
 void planner_release_all(void) {
+    blocks.front_started = false;
     while (ring_used(&blocks.ring) > 0) {
-        planner_release();
+        ring_take(&blocks.ring);
     }
     clear_binding();
 }

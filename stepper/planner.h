@@ -87,7 +87,8 @@ typedef struct {
     float v2_unit;      // (units/s)^2 of one v2_t step
     float v2_per_unit;  // 1 / v2_unit
     planner_override_t override;
-    uint32_t overrides; // changes of it
+    uint32_t overrides;         // changes of it
+    volatile uint32_t executed; // blocks that are done; governor
 } planner_ring_t;
 
 extern planner_ring_t blocks;

@@ -1,0 +1,226 @@
+// Along the moves. For each slice of a millisecond profile.c or scurve.c chooses the speed at its end. The
+// way made in it becomes a segment for the tick; a slice in which blocks meet becomes one segment for each
+// side, so that corners are passed where they are.
+//
+// Speeds are float: the way through a block is a fraction in 2^-64, so that neither a slow feed nor a
+// long move loses anything, and positions are steps in 2^-32. All of it is computed with single IEEE
+// operations in a fixed order; host and board make the same segments to the bit.
+// Context: governor, or main with the governor locked.
+#include "stepper/travel.h"
+
+#include <math.h>
+
+#include "stepper/path.h"
+#include "stepper/profile.h"
+#include "stepper/scurve.h"
+#include "stepper/segment_writer.h"
+
+#define TICK_S (1.0f / (float)HAL_TICK_HZ)
+// A jerk limit chooses anew after this, that is mostly after two or three slices.
+#define CHOSEN_TICKS 190.0f
+// Ways shorter than this are joined with what follows instead of getting a segment of their own.
+#define SEGMENT_TICKS_MIN 8.0f
+#define CORNER_TICKS_MIN 2.0f // the same before a corner, which must not be cut
+#define STANDSTILL 0.001f     // units/s
+// What a corner may be reached too fast, from rounding, as the time to brake that off.
+#define HAIR_S 0.0002f
+#define PROGRESS_ONE 18446744073709551616.0f  // 2^64
+#define PROGRESS_MOST 18446742974197923840.0f // the float below
+
+static struct {
+    const block_t *block; // being executed, NULL: none
+    uint64_t progress;    // in 2^-64 of its length
+    float per_length;     // 2^64 / length
+    float top_speed;      // allowed in it, units/s
+    uint32_t overrides;   // for which that was found
+    float speed;          // along the path now, units/s
+    float acceleration;   // of the piece that led here, units/s^2
+    float chosen_ticks;   // since a jerk limit has chosen it
+    bool choose_again;    // whatever that is
+    float pending_ticks;  // computed way that has no segment yet
+    float pending_from;   // speed at its beginning
+} travel;
+
+static float lesser(float a, float b) {
+    return a < b ? a : b;
+}
+
+static float greater(float a, float b) {
+    return a > b ? a : b;
+}
+
+// ---- The way along a move ------------------------------------------------------------------------
+
+static float remaining(void) {
+    return (float)~travel.progress * (travel.block->move.length / PROGRESS_ONE);
+}
+
+// Adds a piece in which the speed changes to `end_speed` to the way that has no segment yet.
+static void go_on(float ticks, float end_speed) {
+    if (travel.pending_ticks <= 0.0f) {
+        travel.pending_from = travel.speed;
+    }
+    travel.pending_ticks += ticks;
+    travel.speed = end_speed;
+}
+
+static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
+    float sum = travel.pending_from + travel.speed;
+    float rise = travel.speed - travel.pending_from;
+    float change = rise != 0.0f ? rise / sum : 0.0f;
+    segment_writer_move(target, travel.pending_ticks,
+                        (int32_t)(change * (float)SEGMENT_CHANGE_ONE), at_rest);
+    travel.pending_ticks = 0.0f;
+}
+
+// At rest, from where any acceleration within the jerk limit may be chosen.
+static void rest(void) {
+    travel.block = NULL;
+    travel.speed = 0.0f;
+    travel.acceleration = 0.0f;
+    travel.chosen_ticks = SCURVE_TICKS;
+    travel.choose_again = true;
+}
+
+void travel_stand(void) {
+    rest();
+    travel.pending_ticks = 0.0f;
+}
+
+void travel_begin(const block_t *block) {
+    travel.block = block;
+    travel.progress = 0;
+    travel.per_length = PROGRESS_ONE / block->move.length;
+    travel.top_speed = planner_top_speed(block);
+    travel.overrides = blocks.overrides;
+    path_begin(block);
+    if (fabsf(travel.acceleration) > block->move.acceleration) {
+        travel.choose_again = true;
+    }
+}
+
+static bool goes_straight_on(void) {
+    const block_t *second = planner_second();
+    return second != NULL && block_is_move(second) && second->move.corner == V2_MAX;
+}
+
+// The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the ticks of
+// it that are used.
+static float pass_end(float left, float v1, float dt) {
+    float v = travel.speed;
+    float acceleration = (v1 - v) / dt;
+    float exit_speed2 = planner_exit_speed2();
+    float end_speed = sqrtf(greater(v * v + 2.0f * acceleration * left, 0.0f));
+    if (travel.block->move.jerk <= 0.0f) {
+        float excess = end_speed - sqrtf(exit_speed2);
+        if (excess > 0.0f && excess < travel.block->move.acceleration * HAIR_S) {
+            end_speed -= excess;
+        }
+    }
+    float time = v + end_speed > 0.0f ? lesser(2.0f * left / (v + end_speed), dt) : dt;
+    float ticks = time * (float)HAL_TICK_HZ;
+    bool at_rest = exit_speed2 <= 0.0f;
+    go_on(ticks, at_rest ? 0.0f : end_speed);
+    float least = at_rest || goes_straight_on() ? SEGMENT_TICKS_MIN : CORNER_TICKS_MIN;
+    if (at_rest || travel.pending_ticks >= least) {
+        int64_t target[AXIS_COUNT];
+        path_end(target);
+        write_way(target, at_rest);
+    }
+    planner_release();
+    if (at_rest) {
+        rest();
+    } else {
+        planner_start();
+        travel_begin(planner_front());
+    }
+    return ticks;
+}
+
+static profile_t profile_here(float left, bool braking) {
+    return (profile_t){
+        .block = travel.block,
+        .left = left,
+        .top = braking ? 0.0f : travel.top_speed,
+        .speed = travel.speed,
+        .acceleration = travel.acceleration,
+    };
+}
+
+// The speed after the next `*ticks`, which it may lessen. The jerk-limited profile looks across blocks, so
+// what it chose holds behind them as well, for some slices.
+static float next_speed(float left, bool braking, float *ticks) {
+    if (travel.overrides != blocks.overrides) {
+        travel.overrides = blocks.overrides;
+        travel.top_speed = planner_top_speed(travel.block);
+        travel.choose_again = true;
+    }
+    if (travel.block->move.jerk <= 0.0f) {
+        profile_t here = profile_here(left, braking);
+        float v1 = profile_next_speed(&here, ticks);
+        float acceleration = travel.block->move.acceleration;
+        travel.acceleration = v1 > here.speed   ? acceleration
+                                : v1 < here.speed ? -acceleration
+                                                  : 0.0f;
+        travel.choose_again = true;
+        return v1;
+    }
+    if (travel.choose_again || travel.chosen_ticks >= CHOSEN_TICKS) {
+        profile_t here = profile_here(left, braking);
+        travel.acceleration = scurve_acceleration(&here, travel.chosen_ticks * TICK_S);
+        travel.chosen_ticks = 0.0f;
+        travel.choose_again = false;
+    }
+    float v1 = scurve_speed(travel.speed, travel.acceleration, *ticks * TICK_S);
+    // On the way to a standstill a slice that is shorter than planned leaves a part of the speed; the
+    // next one leaves a part of that, and so on.
+    return braking && v1 < STANDSTILL ? 0.0f : v1;
+}
+
+travel_t travel_advance(float ticks, bool braking) {
+    while (ticks >= 1.0f && segment_writer_has_room()) {
+        float piece = ticks;
+        float left = remaining();
+        float v1 = next_speed(left, braking, &piece);
+        float dt = piece * TICK_S;
+        float way = 0.5f * (travel.speed + v1) * dt;
+        float advance = lesser(way * travel.per_length, PROGRESS_MOST);
+        uint64_t progress = travel.progress + (uint64_t)advance;
+        if (way >= left || progress < travel.progress) {
+            float used = pass_end(left, v1, dt);
+            if (travel.block == NULL) {
+                return TRAVEL_ARRIVED;
+            }
+            ticks -= used;
+            travel.chosen_ticks += used;
+            continue;
+        }
+        travel.progress = progress;
+        travel.chosen_ticks += piece;
+        go_on(piece, v1);
+        int64_t target[AXIS_COUNT];
+        path_at(travel.progress, target);
+        bool stopped = braking && v1 <= 0.0f;
+        write_way(target, stopped);
+        if (stopped) {
+            travel.acceleration = 0.0f;
+            travel.chosen_ticks = SCURVE_TICKS;
+            travel.choose_again = true;
+            return TRAVEL_STOPPED;
+        }
+        ticks -= piece;
+    }
+    return TRAVEL_GOES_ON;
+}
+
+void travel_choose_again(void) {
+    travel.choose_again = true;
+}
+
+float travel_speed(void) {
+    return travel.block != NULL ? travel.speed : 0.0f;
+}
+
+float travel_left(void) {
+    return travel.block != NULL ? remaining() : 0.0f;
+}
