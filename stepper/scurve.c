@@ -288,6 +288,21 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
+// With less jerk in the next block the acceleration must be one that can be taken back there before the
+// top speed is reached.
+static void keep_next_jerk(choice_t *choice, const block_t *next) {
+    const profile_t *now = choice->now;
+    float take_back_s = choice->chosen / next->move.jerk;
+    if (choice->chosen <= 0.0f || (take_back_s + SLICE_S) * now->speed < now->left) {
+        return;
+    }
+    float room = planner_top_speed(next) - now->speed - choice->chosen * SLICE_S;
+    float most = room > 0.0f ? sqrtf(2.0f * next->move.jerk * room) : 0.0f;
+    if (choice->chosen > most) {
+        choice->chosen = greater(most, choice->least);
+    }
+}
+
 // The next block may allow less: what is above that has to be gone when it begins. (Braking for a bound
 // is planned with the least limits of all blocks that it goes through.)
 static void keep_next_limit(choice_t *choice) {
@@ -296,6 +311,9 @@ static void keep_next_limit(choice_t *choice) {
         return;
     }
     const profile_t *now = choice->now;
+    if (second->move.jerk > 0.0f && second->move.jerk < limits.jerk) {
+        keep_next_jerk(choice, second);
+    }
     float next = second->move.acceleration;
     bool free_braking = choice->chosen < 0.0f && !choice->bound;
     float excess = (free_braking ? -choice->chosen : choice->chosen) - next;

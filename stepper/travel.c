@@ -16,8 +16,8 @@
 #include "stepper/segment_writer.h"
 
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
-// A jerk limit chooses anew after this, that is mostly after two or three slices.
-#define CHOSEN_TICKS 190.0f
+// A jerk limit chooses anew in the slice after this, that is mostly after two slices.
+#define CHOSEN_TICKS 150.0f
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
 #define CORNER_TICKS_MIN 2.0f // the same before a corner, which must not be cut
@@ -68,8 +68,8 @@ static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
     float sum = travel.pending_from + travel.speed;
     float rise = travel.speed - travel.pending_from;
     float change = rise != 0.0f ? rise / sum : 0.0f;
-    segment_writer_move(target, travel.pending_ticks,
-                        (int32_t)(change * (float)SEGMENT_CHANGE_ONE), at_rest);
+    segment_writer_move(target, travel.pending_ticks, (int32_t)(change * (float)SEGMENT_CHANGE_ONE),
+                        at_rest);
     travel.pending_ticks = 0.0f;
 }
 
@@ -160,8 +160,8 @@ static float next_speed(float left, bool braking, float *ticks) {
         float v1 = profile_next_speed(&here, ticks);
         float acceleration = travel.block->move.acceleration;
         travel.acceleration = v1 > here.speed   ? acceleration
-                                : v1 < here.speed ? -acceleration
-                                                  : 0.0f;
+                              : v1 < here.speed ? -acceleration
+                                                : 0.0f;
         travel.choose_again = true;
         return v1;
     }
