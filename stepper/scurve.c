@@ -22,6 +22,7 @@
 
 #define SLICE_S ((float)SCURVE_TICKS / (float)HAL_TICK_HZ)
 #define HALF_SLICE_S (0.5f * SLICE_S)
+#define QUIET_S ((SCURVE_QUIET_TICKS + 100.0f) / (float)HAL_TICK_HZ) // and a slice
 
 // Bounds whose speeds are alike count as one, at the place of the nearest and with the speed of the
 // slowest: the ratio of their squares, coarser the more have been looked at, since the far ones matter less.
@@ -48,6 +49,8 @@ static struct {
     ramp_t ramp;
     int32_t within; // how far ahead a bound can matter at `top`, as `way`
 } limits;
+
+static bool quiet; // see scurve_is_quiet()
 
 // The choice for one slice while it is made.
 typedef struct {
@@ -241,6 +244,7 @@ static void meet_bounds(choice_t *choice) {
     uint32_t here = second != NULL ? second->way : blocks.end_way;
     v2_t slower = same(choice->crest, limits.top) ? limits.top2 : v2_above(choice->crest);
     int32_t left = whole_way(choice->now->left);
+    quiet = false;
     float group_distance = 0.0f;
     float group_speed2 = -1.0f; // none
     float alike_speed2 = 0.0f;
@@ -259,6 +263,8 @@ static void meet_bounds(choice_t *choice) {
         way = (int32_t)(bound.way - here);
         take_span(choice, bound.span);
         if (way > choice->within - left) {
+            quiet = n == 0 && choice->chosen == 0.0f &&
+                    way - (choice->within - left) > whole_way(choice->now->speed * QUIET_S);
             break;
         }
         v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
@@ -363,4 +369,8 @@ float scurve_speed(float speed, float acceleration, float dt) {
     float v1 = speed + change;
     // What rounding leaves of a speed that should be 0 would never end.
     return v1 > -0.001f * change ? v1 : 0.0f;
+}
+
+bool scurve_is_quiet(void) {
+    return quiet;
 }

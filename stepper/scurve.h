@@ -11,6 +11,11 @@
 // `elapsed_s`.
 float scurve_acceleration(const profile_t *now, float elapsed_s);
 
+// Whether the last choice was to go on at the top speed, with nothing ahead that matters within
+// SCURVE_QUIET_TICKS: it may hold that long.
+#define SCURVE_QUIET_TICKS 500.0f
+bool scurve_is_quiet(void);
+
 // The speed after `dt` seconds of it.
 float scurve_speed(float speed, float acceleration, float dt);
 

@@ -18,6 +18,7 @@
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
 // A jerk limit chooses anew in the slice after this, that is mostly after two slices.
 #define CHOSEN_TICKS 150.0f
+#define SLICE_TICKS_MOST 100.0f
 // Ways shorter than this are joined with what follows instead of getting a segment of their own.
 #define SEGMENT_TICKS_MIN 8.0f
 #define CORNER_TICKS_MIN 2.0f // the same before a corner, which must not be cut
@@ -36,6 +37,7 @@ static struct {
     float speed;          // along the path now, units/s
     float acceleration;   // of the piece that led here, units/s^2
     float chosen_ticks;   // since a jerk limit has chosen it
+    float choice_ticks;   // for which that holds
     bool choose_again;    // whatever that is
     float pending_ticks;  // computed way that has no segment yet
     float pending_from;   // speed at its beginning
@@ -91,10 +93,12 @@ void travel_begin(const block_t *block) {
     travel.block = block;
     travel.progress = 0;
     travel.per_length = PROGRESS_ONE / block->move.length;
-    travel.top_speed = planner_top_speed(block);
+    float top_speed = planner_top_speed(block);
+    bool faster = top_speed > travel.top_speed;
+    travel.top_speed = top_speed;
     travel.overrides = blocks.overrides;
     path_begin(block);
-    if (fabsf(travel.acceleration) > block->move.acceleration) {
+    if (faster || fabsf(travel.acceleration) > block->move.acceleration) {
         travel.choose_again = true;
     }
 }
@@ -165,10 +169,13 @@ static float next_speed(float left, bool braking, float *ticks) {
         travel.choose_again = true;
         return v1;
     }
-    if (travel.choose_again || travel.chosen_ticks >= CHOSEN_TICKS) {
+    if (travel.choose_again || travel.chosen_ticks >= travel.choice_ticks) {
         profile_t here = profile_here(left, braking);
-        travel.acceleration = scurve_acceleration(&here, travel.chosen_ticks * TICK_S);
+        // A long choice does not allow a larger step of the acceleration after it.
+        float elapsed = lesser(travel.chosen_ticks, CHOSEN_TICKS + SLICE_TICKS_MOST);
+        travel.acceleration = scurve_acceleration(&here, elapsed * TICK_S);
         travel.chosen_ticks = 0.0f;
+        travel.choice_ticks = scurve_is_quiet() ? SCURVE_QUIET_TICKS : CHOSEN_TICKS;
         travel.choose_again = false;
     }
     float v1 = scurve_speed(travel.speed, travel.acceleration, *ticks * TICK_S);
