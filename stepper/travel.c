@@ -94,7 +94,7 @@ void travel_begin(const block_t *block) {
     travel.progress = 0;
     travel.per_length = PROGRESS_ONE / block->move.length;
     float top_speed = planner_top_speed(block);
-    bool faster = top_speed > travel.top_speed;
+    bool faster = top_speed > 1.01f * travel.top_speed && travel.choice_ticks > CHOSEN_TICKS;
     travel.top_speed = top_speed;
     travel.overrides = blocks.overrides;
     path_begin(block);
