@@ -117,8 +117,8 @@ def queue_section(uf2: Path, missed: list[str]) -> Section:
     part = measure.part(uf2, 0.1, jerk=10_000)
     anew = measure.planned_anew(uf2)
     section.note = (
-        f"The {part.lines} lines of the name plate, text to ring, S-curve; and what the governor waits "
-        "for when an override plans a full queue anew."
+        f"The {part.lines} lines of the name plate, text to ring, S-curve; and what the governor "
+        "waits for when an override plans a full queue anew."
     )
     section.rows += [
         of_cycles("one line of G-code", part.line, f"{GOAL_LINE:,} / {2 * GOAL_LINE:,}"),

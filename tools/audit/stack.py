@@ -24,8 +24,8 @@ from tick import disassemble, lines_by_function, stack_of
 FRAME_BYTES = {"v6": 32 + 4, "v8": 104 + 4}
 # A function of the boot ROM (float arithmetic, memcpy): not in the listing, none takes more.
 ROM_BYTES = 128
-# The same for doubles on the RP2350: hand-written, for its coprocessor, whose state they save by jumping
-# into code that the listing takes for part of a neighbour.
+# The same for doubles on the RP2350: hand-written, for its coprocessor, whose state they save by
+# jumping into code that the listing takes for part of a neighbour.
 DOUBLE_ARITHMETIC = re.compile(r"__wrap___aeabi_(d\w+|\w+2d)|__wrap_sqrt|double2\w+")
 
 # From the lowest priority to the highest. Handlers of one row do not interrupt each other.
