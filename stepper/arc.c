@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "stepper/axis.h"
+#include "stepper/extremes.h"
 #include "stepper/trig.h"
 
 #define RADIANS_PER_TURN 6.283185307179586
@@ -114,10 +115,6 @@ bool arc_is_below_a_step(const arc_t *arc) {
 
 // ---- Limits --------------------------------------------------------------------------------------
 
-static float minimum(float a, float b) {
-    return a < b ? a : b;
-}
-
 // Greatest share that each axis ever has in the direction of the path.
 static void find_shares(float share[AXIS_COUNT], const arc_t *arc, float in_plane,
                         const double delta[AXIS_COUNT], float per_length) {
@@ -146,16 +143,15 @@ static void find_directions(geometry_t *g, const arc_t *arc, float in_plane,
 // `curve` times the square of the path speed is the acceleration towards the centre.
 static void limit_turning(geometry_t *g, const arc_t *arc, float in_plane, float curve,
                           float arc_tolerance) {
-    float acceleration =
-        minimum(axes[arc->plane[0]].acceleration, axes[arc->plane[1]].acceleration);
+    float acceleration = lesser(axes[arc->plane[0]].acceleration, axes[arc->plane[1]].acceleration);
     // The height of a chord's arc above it: (v dt)^2 / (8 r).
     float chords2 = 8.0f * arc_tolerance / (curve * CHORD_S * CHORD_S);
-    g->axes_speed = minimum(g->axes_speed, sqrtf(chords2));
+    g->axes_speed = lesser(g->axes_speed, sqrtf(chords2));
     float top = geometry_top_speed(g);
     float turning = geometry_turning_share(top * top * curve / acceleration, TURNING_MAX);
-    g->axes_speed = minimum(g->axes_speed, sqrtf(turning * acceleration / curve));
+    g->axes_speed = lesser(g->axes_speed, sqrtf(turning * acceleration / curve));
     float left = sqrtf(1.0f - turning * turning);
-    g->acceleration = minimum(g->acceleration, left * acceleration / in_plane);
+    g->acceleration = lesser(g->acceleration, left * acceleration / in_plane);
 }
 
 void arc_geometry(geometry_t *g, const arc_t *arc, const double delta[AXIS_COUNT],

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "stepper/axis.h"
+#include "stepper/extremes.h"
 #include "stepper/planner.h"
 
 // |u - u_prev|^2 / 4 = sin^2(phi/2) for unit vectors with the angle phi between them: straight on below the
@@ -21,10 +22,6 @@
 #define TANGENTIAL_DEVIATION_MM 0.0005f
 
 geometry_settings_t geometry_settings;
-
-static float minimum(float a, float b) {
-    return a < b ? a : b;
-}
 
 static float maximum(float a, float b) {
     return a > b ? a : b;
@@ -41,10 +38,10 @@ void geometry_project_limits(geometry_t *g, const float share[AXIS_COUNT]) {
         if (share[axis] <= 0.0f || !axes[axis].configured) {
             continue;
         }
-        g->axes_speed = minimum(g->axes_speed, axes[axis].velocity / share[axis]);
-        g->acceleration = minimum(g->acceleration, axes[axis].acceleration / share[axis]);
+        g->axes_speed = lesser(g->axes_speed, axes[axis].velocity / share[axis]);
+        g->acceleration = lesser(g->acceleration, axes[axis].acceleration / share[axis]);
         if (settings->axis_jerk[axis] > 0.0f) {
-            g->jerk = minimum(g->jerk, settings->axis_jerk[axis] / share[axis]);
+            g->jerk = lesser(g->jerk, settings->axis_jerk[axis] / share[axis]);
         }
     }
 }
@@ -54,7 +51,7 @@ float geometry_top_speed(const geometry_t *g) {
         return g->axes_speed;
     }
     float override = blocks.override.feed > 1.0f ? blocks.override.feed : 1.0f;
-    return minimum(g->feed * override, g->axes_speed);
+    return lesser(g->feed * override, g->axes_speed);
 }
 
 // Up to twice the speed, since the feed may be overridden later; but as long as the feed itself does not need
@@ -62,8 +59,8 @@ float geometry_top_speed(const geometry_t *g) {
 #define TURNING_SPARE 0.436f
 
 float geometry_turning_share(float needed, float most) {
-    float spare = minimum(4.0f * needed, TURNING_SPARE);
-    float at_least = minimum(needed, most);
+    float spare = lesser(4.0f * needed, TURNING_SPARE);
+    float at_least = lesser(needed, most);
     return spare > at_least ? spare : at_least;
 }
 
@@ -98,7 +95,7 @@ static float acceleration_along(const float change[AXIS_COUNT], float size) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         float share = fabsf(change[axis]) / size;
         if (share > 1e-6f && axes[axis].configured) {
-            acceleration = minimum(acceleration, axes[axis].acceleration / share);
+            acceleration = lesser(acceleration, axes[axis].acceleration / share);
         }
     }
     return acceleration;
@@ -126,9 +123,9 @@ float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,
     float acceleration = acceleration_along(change, sqrtf(change2));
     float deviation = exact ? TANGENTIAL_DEVIATION_MM : geometry_settings.deviation;
     float by_deviation = acceleration * deviation * s * (1.0f + s) / sin2;
-    float half_length = 0.5f * minimum(before->length, next->length);
+    float half_length = 0.5f * lesser(before->length, next->length);
     float by_length = acceleration * half_length * s / sqrtf(sin2);
-    return minimum(by_deviation, by_length);
+    return lesser(by_deviation, by_length);
 }
 
 // ---- Blends --------------------------------------------------------------------------------------
@@ -159,7 +156,7 @@ static float blend_feed(const geometry_t *before, const geometry_t *next) {
     if (before->feed <= 0.0f || next->feed <= 0.0f) {
         return before->feed + next->feed;
     }
-    return minimum(before->feed, next->feed);
+    return lesser(before->feed, next->feed);
 }
 
 bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *next,
@@ -185,18 +182,18 @@ bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *n
     if (top < turning_limit * BLEND_TIME_MIN_S) {
         return false;
     }
-    float room = BLEND_SHARE * minimum(before->length, next->length);
+    float room = BLEND_SHARE * lesser(before->length, next->length);
     float needed = 0.5f * top * top / (turning_limit * BLEND_TURNING);
-    *reach = minimum(minimum(4.0f * tolerance_mm / size, room), needed);
+    *reach = lesser(lesser(4.0f * tolerance_mm / size, room), needed);
     g->length = 2.0f * *reach;
     float fastest2 = turning_limit * g->length;
     float turning = geometry_turning_share(top * top / fastest2, BLEND_TURNING_MAX);
-    g->axes_speed = minimum(g->axes_speed, sqrtf(turning * fastest2));
+    g->axes_speed = lesser(g->axes_speed, sqrtf(turning * fastest2));
     float used = g->axes_speed * g->axes_speed / g->length;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if (share[axis] > 0.0f && axes[axis].configured) {
             float left = axes[axis].acceleration - used * fabsf(change[axis]);
-            g->acceleration = minimum(g->acceleration, left / share[axis]);
+            g->acceleration = lesser(g->acceleration, left / share[axis]);
         }
     }
     return true;
@@ -206,7 +203,7 @@ bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *n
 
 // A move that is over before the acceleration could be built up and taken back.
 static bool is_short(const geometry_t *g) {
-    float top = g->feed > 0.0f ? minimum(g->feed, g->axes_speed) : g->axes_speed;
+    float top = g->feed > 0.0f ? lesser(g->feed, g->axes_speed) : g->axes_speed;
     return g->length * g->jerk < 2.0f * g->acceleration * top;
 }
 
@@ -216,10 +213,10 @@ static float even_acceleration(const geometry_t *g) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         float share = fabsf(g->start[axis]) * 1.41422f;
         if (share > 0.0f && axes[axis].configured) {
-            acceleration = minimum(acceleration, axes[axis].acceleration / minimum(share, 1.0f));
+            acceleration = lesser(acceleration, axes[axis].acceleration / lesser(share, 1.0f));
         }
     }
-    return minimum(acceleration, g->acceleration);
+    return lesser(acceleration, g->acceleration);
 }
 
 void geometry_even_out(geometry_t *g) {

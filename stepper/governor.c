@@ -192,8 +192,7 @@ void governor_reset(const int32_t steps[AXIS_COUNT]) {
     blocks.executed = 0;
     travel_stand();
     jog_drop();
-    segment_writer_reset(steps);
-    path_stand(steps);
+    governor_set_position(steps);
 }
 
 void governor_set_pins(const governor_pins_t *pins) {
@@ -236,8 +235,7 @@ void governor_emergency_stop(void) {
     step_isr_abort();
     jog_drop();
     drop_blocks();
-    segment_writer_reset(steps);
-    path_stand(steps);
+    governor_set_position(steps);
     bool spindle_off_level = governor.pins.spindle_inverted;
     hal_pins_set(spindle_off_level ? governor.pins.spindle : 0);
     hal_pins_clear(spindle_off_level ? 0 : governor.pins.spindle);

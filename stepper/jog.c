@@ -110,12 +110,10 @@ static void stand(void) {
 }
 
 static void write(float way, float ticks, float end_speed) {
-    float sum = jog.speed + end_speed;
-    float change = sum > 0.0f ? (end_speed - jog.speed) / sum : 0.0f;
     int64_t moved = (int64_t)(way / jog.now.units * (1.0f / STEP_UNIT));
     jog.position[jog.now.axis] += jog.negative ? -moved : moved;
-    segment_writer_move(jog.position, ticks, (int32_t)(change * (float)SEGMENT_CHANGE_ONE),
-                        end_speed <= 0.0f);
+    int32_t change = segment_writer_change(jog.speed, end_speed);
+    segment_writer_move(jog.position, ticks, change, end_speed <= 0.0f);
     jog.speed = end_speed;
 }
 

@@ -8,6 +8,7 @@
 
 #include "stepper/arc.h"
 #include "stepper/axis.h"
+#include "stepper/extremes.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
 
@@ -34,10 +35,6 @@ void moves_set_position(const int32_t steps[AXIS_COUNT]) {
 
 void moves_target(double target[AXIS_COUNT]) {
     memcpy(target, moves.commanded, sizeof moves.commanded);
-}
-
-static float lesser(float a, float b) {
-    return a < b ? a : b;
 }
 
 // Puts the block in the next slot, which is filled in, behind all others.

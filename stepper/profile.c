@@ -9,19 +9,12 @@
 
 #include <math.h>
 
+#include "stepper/extremes.h"
 #define TICK_S (1.0f / (float)HAL_TICK_HZ)
 // Pieces shorter than this are not worth a segment.
 #define PIECE_TICKS_MIN 1.0f
 // Braking may be that much harder to come back to the braking curve, which rounding has left.
 #define BRAKING_SLACK 1.001f
-
-static float lesser(float a, float b) {
-    return a < b ? a : b;
-}
-
-static float greater(float a, float b) {
-    return a > b ? a : b;
-}
 
 // Solves v1^2 = exit^2 + 2 a (left - (v + v1) / 2 dt), so that braking which starts behind this slice
 // still succeeds.

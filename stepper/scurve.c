@@ -18,9 +18,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "stepper/bounds.h"
+#include "stepper/extremes.h"
 #include "stepper/ramp.h"
 
-#define SLICE_S ((float)SCURVE_TICKS / (float)HAL_TICK_HZ)
+#define SLICE_S (SCURVE_TICKS / (float)HAL_TICK_HZ)
 #define HALF_SLICE_S (0.5f * SLICE_S)
 #define QUIET_S ((SCURVE_QUIET_TICKS + 100.0f) / (float)HAL_TICK_HZ) // and a slice
 
@@ -65,14 +67,6 @@ typedef struct {
     bool out_of_reach; // a bound cannot be met within the jerk limit
     unsigned tests;
 } choice_t;
-
-static float lesser(float a, float b) {
-    return a < b ? a : b;
-}
-
-static float greater(float a, float b) {
-    return a > b ? a : b;
-}
 
 static int32_t whole_way(float distance) {
     float way = distance * WAY_ONE;
@@ -250,9 +244,9 @@ static void meet_bounds(choice_t *choice) {
     float alike_speed2 = 0.0f;
     int32_t way = 0;
     bool looked = false;
-    planner_bound_t bound;
-    planner_first_bound(&bound);
-    for (uint32_t n = 0; planner_next_bound(&bound); n++) {
+    bound_t bound;
+    bounds_first(&bound);
+    for (uint32_t n = 0; bounds_next(&bound); n++) {
         if (n == 1) {
             keep_next_span(choice, bound.span, way);
         } else if (n >= BOUNDS_FEW && !looked) {
@@ -269,7 +263,7 @@ static void meet_bounds(choice_t *choice) {
         }
         v2_t cap = n < BOUNDS_MAX ? bound.cap : 0;
         if (cap >= slower) {
-            n += planner_skip_bounds(&bound, slower, choice->span);
+            n += bounds_skip(&bound, slower, choice->span);
             continue;
         }
         slower = cap;

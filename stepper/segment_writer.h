@@ -17,6 +17,11 @@ void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t invert
 // `change`: how the speed along the path changes on the way, (end - start) / (end + start) in
 // SEGMENT_CHANGE_ONE, at most 1. `at_rest`: the motion ends there, and now.
 #define SEGMENT_CHANGE_ONE ((int32_t)1 << 30)
+static inline int32_t segment_writer_change(float start, float end) {
+    float rise = end - start;
+    return rise != 0.0f ? (int32_t)(rise / (start + end) * (float)SEGMENT_CHANGE_ONE) : 0;
+}
+
 void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
                          bool at_rest);
 

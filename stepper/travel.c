@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "stepper/extremes.h"
 #include "stepper/path.h"
 #include "stepper/profile.h"
 #include "stepper/scurve.h"
@@ -43,14 +44,6 @@ static struct {
     float pending_from;   // speed at its beginning
 } travel;
 
-static float lesser(float a, float b) {
-    return a < b ? a : b;
-}
-
-static float greater(float a, float b) {
-    return a > b ? a : b;
-}
-
 // ---- The way along a move ------------------------------------------------------------------------
 
 static float remaining(void) {
@@ -67,11 +60,8 @@ static void go_on(float ticks, float end_speed) {
 }
 
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
-    float sum = travel.pending_from + travel.speed;
-    float rise = travel.speed - travel.pending_from;
-    float change = rise != 0.0f ? rise / sum : 0.0f;
-    segment_writer_move(target, travel.pending_ticks, (int32_t)(change * (float)SEGMENT_CHANGE_ONE),
-                        at_rest);
+    int32_t change = segment_writer_change(travel.pending_from, travel.speed);
+    segment_writer_move(target, travel.pending_ticks, change, at_rest);
     travel.pending_ticks = 0.0f;
 }
 
