@@ -108,6 +108,24 @@ class Setup:
         return "\n".join(lines) + "\n" + RECEIVER
 
 
+MACHINES = {
+    "equal": Setup(queue_first=True),
+    "uneven": Setup(
+        steps_per_unit=(80.0, 53.3, 400.0, 8.8889),
+        max_velocity_per_min=(4800.0, 3000.0, 600.0, 3600.0),
+        max_acceleration=(500.0, 300.0, 100.0, 400.0),
+        queue_first=True,
+    ),
+    "fast": Setup(
+        steps_per_unit=(200.0, 250.0, 400.0, 100.0),
+        max_velocity_per_min=(15000.0, 12000.0, 7500.0, 30000.0),
+        max_acceleration=(3000.0, 2000.0, 1500.0, 2500.0),
+        queue_first=True,
+    ),
+}
+"""What paths are tried on: axes that are alike, that are not, and that are quick."""
+
+
 @dataclass(frozen=True)
 class Result:
     setup: Setup

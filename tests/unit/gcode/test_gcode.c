@@ -5,6 +5,7 @@
 
 #include "bench.h"
 #include "gcode/gcode.h"
+#include "lines.h"
 
 void setUp(void) {
     bench_start_with(NULL, STEPPER_BLOCKS_MAX, false);
@@ -15,21 +16,12 @@ void tearDown(void) {
     bench_end();
 }
 
-static err_t line(const char *text) {
-    return gcode_line(text, strlen(text));
-}
-
-static void check_ok(const char *text) {
-    err_t err = line(text);
-    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, err, err == ERR_OK ? text : err_message());
-}
-
 static void check_refused(const char *text, const char *message) {
     double before[AXIS_COUNT];
     double after[AXIS_COUNT];
     uint32_t slots = stepper_blocks_free();
     stepper_target(before);
-    TEST_ASSERT_NOT_EQUAL_MESSAGE(ERR_OK, line(text), text);
+    TEST_ASSERT_NOT_EQUAL_MESSAGE(ERR_OK, lines_send(text), text);
     TEST_ASSERT_EQUAL_STRING_MESSAGE(message, err_message(), text);
     stepper_target(after);
     TEST_ASSERT_EQUAL_DOUBLE_ARRAY(before, after, AXIS_COUNT);
@@ -44,57 +36,57 @@ static void check_target(double x, double y, double z, double a) {
 }
 
 static void test_words_in_any_order_and_spacing(void) {
-    check_ok("G1X1Y2F600");
+    lines_check_ok("G1X1Y2F600");
     check_target(1, 2, 0, 0);
-    check_ok("f 300  x- 2.5 g01 , y+3");
+    lines_check_ok("f 300  x- 2.5 g01 , y+3");
     check_target(-2.5, 3, 0, 0);
-    check_ok("\tz.5\tX1.");
+    lines_check_ok("\tz.5\tX1.");
     check_target(1, 3, 0.5, 0);
-    check_ok("Y0X10"); // not hexadecimal
+    lines_check_ok("Y0X10"); // not hexadecimal
     check_target(10, 0, 0.5, 0);
-    check_ok("G0A-90");
+    lines_check_ok("G0A-90");
     check_target(10, 0, 0.5, -90);
 }
 
 static void test_comments(void) {
-    check_ok("");
-    check_ok("   ");
-    check_ok("; all of it");
-    check_ok("(alone)");
-    check_ok("' BASIC's own");
+    lines_check_ok("");
+    lines_check_ok("   ");
+    lines_check_ok("; all of it");
+    lines_check_ok("(alone)");
+    lines_check_ok("' BASIC's own");
     check_target(0, 0, 0, 0);
-    check_ok("G1 (fast) X1 (to the right) F600 ; X9");
-    check_ok("Y1 ' and back Y9");
-    check_ok("Y2 (never closed X9");
-    check_ok("Y(in between)3");
+    lines_check_ok("G1 (fast) X1 (to the right) F600 ; X9");
+    lines_check_ok("Y1 ' and back Y9");
+    lines_check_ok("Y2 (never closed X9");
+    lines_check_ok("Y(in between)3");
     check_target(1, 3, 0, 0);
 }
 
 static void test_modes_stay(void) {
-    check_ok("F600");
-    check_ok("G1");
-    check_ok("X1");
-    check_ok("G91");
-    check_ok("X1 Y1");
-    check_ok("X1");
+    lines_check_ok("F600");
+    lines_check_ok("G1");
+    lines_check_ok("X1");
+    lines_check_ok("G91");
+    lines_check_ok("X1 Y1");
+    lines_check_ok("X1");
     check_target(3, 1, 0, 0);
-    check_ok("G90 X1");
+    lines_check_ok("G90 X1");
     check_target(1, 1, 0, 0);
-    check_ok("G0");
-    check_ok("X5");
+    lines_check_ok("G0");
+    lines_check_ok("X5");
     check_target(5, 1, 0, 0);
 }
 
 static void test_offsets(void) {
-    check_ok("G0 X50");
-    check_ok("G92 X0 Y-1");
+    lines_check_ok("G0 X50");
+    lines_check_ok("G92 X0 Y-1");
     TEST_ASSERT_EQUAL_DOUBLE(50, gcode_offset(AXIS_X));
-    check_ok("G1 X10 Y0 F600");
+    lines_check_ok("G1 X10 Y0 F600");
     check_target(60, 1, 0, 0);
-    check_ok("G91 X1");
+    lines_check_ok("G91 X1");
     check_target(61, 1, 0, 0);
     gcode_clear_offsets();
-    check_ok("G90 X10");
+    lines_check_ok("G90 X10");
     check_target(10, 1, 0, 0);
 }
 
@@ -132,9 +124,9 @@ static void test_refusals_name_their_reason(void) {
 }
 
 static void test_a_refused_line_leaves_the_modes(void) {
-    check_ok("G1 F600 X1");
+    lines_check_ok("G1 F600 X1");
     check_refused("G0 G91 F100 X1 Q5", "Unknown parameter Q");
-    check_ok("X2"); // still G90
+    lines_check_ok("X2"); // still G90
     check_target(2, 0, 0, 0);
 }
 
@@ -149,25 +141,25 @@ static void test_too_many_words(void) {
 static void test_full_queue_refuses_and_keeps_the_modes(void) {
     stepper_estop(); // disarmed: the queue only fills
     TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
-    check_ok("G1 F600 G91");
+    lines_check_ok("G1 F600 G91");
     while (stepper_blocks_free() > 0) {
-        check_ok("X0.1");
+        lines_check_ok("X0.1");
     }
     check_refused("G90 G0 X5", "G-code buffer full");
     stepper_run(STEPPER_IDLE_HOLD);
     while (stepper_blocks_free() == 0) {
         bench_wait_us(1000);
     }
-    check_ok("X0.1"); // still relative
+    lines_check_ok("X0.1"); // still relative
     check_target(102.5, 0, 0, 0);
     bench_finish(100);
     TEST_ASSERT_EQUAL_INT64(8200, bench.motors[AXIS_X].position_steps);
 }
 
 static void test_dwell_and_spindle_lines(void) {
-    check_ok("G4 P250");
-    check_ok("M3");
-    check_ok("m05");
+    lines_check_ok("G4 P250");
+    lines_check_ok("M3");
+    lines_check_ok("m05");
     TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.25, bench_finish(1));
 }
 

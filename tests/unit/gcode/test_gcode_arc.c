@@ -5,6 +5,7 @@
 
 #include "bench.h"
 #include "gcode/gcode.h"
+#include "lines.h"
 
 static const double scale[AXIS_COUNT] = {80, 80, 400, 10};
 
@@ -18,24 +19,15 @@ void tearDown(void) {
     bench_end();
 }
 
-static err_t line(const char *text) {
-    return gcode_line(text, strlen(text));
-}
-
-static void check_ok(const char *text) {
-    err_t err = line(text);
-    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, err, err == ERR_OK ? text : err_message());
-}
-
 static void check_refused(const char *text, const char *message) {
     uint32_t slots = stepper_blocks_free();
-    TEST_ASSERT_NOT_EQUAL_MESSAGE(ERR_OK, line(text), text);
+    TEST_ASSERT_NOT_EQUAL_MESSAGE(ERR_OK, lines_send(text), text);
     TEST_ASSERT_EQUAL_STRING_MESSAGE(message, err_message(), text);
     TEST_ASSERT_EQUAL_UINT32(slots, stepper_blocks_free());
 }
 
 static void go(const char *text) {
-    check_ok(text);
+    lines_check_ok(text);
     bench_finish(100);
 }
 
@@ -46,7 +38,7 @@ typedef struct {
 
 // Carries the line out and checks how far the axis went and where it is then, in mm or degrees.
 static void check_way(const char *text, axis_id_t axis, double low, double high, double end) {
-    check_ok(text);
+    lines_check_ok(text);
     reach_t reach = {INFINITY, -INFINITY};
     do {
         double place = (double)bench.motors[axis].position_steps / scale[axis];
@@ -91,7 +83,7 @@ static void test_turns_take_their_time(void) {
     for (int turns = 1; turns <= 3; turns++) {
         char text[] = "G2 I10 P1";
         text[8] = (char)('0' + turns);
-        check_ok(text);
+        lines_check_ok(text);
         TEST_ASSERT_DOUBLE_WITHIN(0.03, turns * 1.2566 + 0.115, bench_finish(10));
     }
 }
@@ -109,12 +101,12 @@ static void test_radius(void) {
 }
 
 static void test_modal_motion_and_distance(void) {
-    check_ok("G91 G2 X2 I1");
+    lines_check_ok("G91 G2 X2 I1");
     check_way("X2 I1", AXIS_X, 0, 4, 4);
     check_way("G90 X0 I-2", AXIS_Y, -2, 0, 0);
     check_way("G91.1 G3 X4 I2", AXIS_Y, -2, 0, 0);
     check_way("G1 X0", AXIS_Y, 0, 0, 0);
-    check_ok("G92 X100 Y50");
+    lines_check_ok("G92 X100 Y50");
     check_way("G2 X110 Y50 I5", AXIS_Y, 0, 5, 0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 10, stepper_position(AXIS_X));
 }
@@ -193,16 +185,16 @@ static void test_soft_limits_hold_on_the_whole_way(void) {
 
 static void test_path_modes(void) {
     TEST_ASSERT_EQUAL(STEPPER_CORNER_CONTINUOUS, gcode_path().corner);
-    check_ok("G61");
+    lines_check_ok("G61");
     TEST_ASSERT_EQUAL(STEPPER_CORNER_EXACT, gcode_path().corner);
-    check_ok("G61.1 X1 G1");
+    lines_check_ok("G61.1 X1 G1");
     TEST_ASSERT_EQUAL(STEPPER_CORNER_STOP, gcode_path().corner);
-    check_ok("G64 P0.05");
+    lines_check_ok("G64 P0.05");
     TEST_ASSERT_EQUAL(STEPPER_CORNER_BLEND, gcode_path().corner);
     TEST_ASSERT_EQUAL_DOUBLE(0.05, gcode_path().blend_mm);
-    check_ok("G64 P0");
+    lines_check_ok("G64 P0");
     TEST_ASSERT_EQUAL(STEPPER_CORNER_CONTINUOUS, gcode_path().corner);
-    check_ok("G18 G64 P0.1 G1 X2");
+    lines_check_ok("G18 G64 P0.1 G1 X2");
     check_refused("G64 P-1", "P: -1 is invalid (valid is 0 to 1000)");
     check_refused("G61 P1", "P only valid with one of G2, G3, G4 and G64");
     check_refused("G64 P1 G4", "P only valid with one of G2, G3, G4 and G64");
@@ -220,13 +212,13 @@ static void test_path_modes_reach_the_corners(void) {
     const char *const modes[] = {"G61.1", "G61", "G64", "G64 P0.5"};
     double time[4];
     for (int i = 0; i < 4; i++) {
-        check_ok(modes[i]);
+        lines_check_ok(modes[i]);
         go("G1 X0 Y0 F3000");
         stepper_hold(true);
-        check_ok("X5");
-        check_ok("X10");
-        check_ok("Y5");
-        check_ok("Y10");
+        lines_check_ok("X5");
+        lines_check_ok("X10");
+        lines_check_ok("Y5");
+        lines_check_ok("Y10");
         stepper_hold(false);
         time[i] = bench_finish(10);
     }
