@@ -22,7 +22,8 @@ static struct {
     unsigned output_length;
     unsigned column;
     unsigned rows, columns; // of the screen
-    bool in_escape;         // a VT100 sequence is being written; it does not move the column
+    char escape;            // last character of a VT100 sequence being written; 0: none is
+    uint8_t break_key;      // ends a program; 0: none
     bool running;
     bool flushing;
     bool polling;
@@ -39,7 +40,16 @@ void console_start(void (*background)(void), console_control_t on_control) {
     memset(&console, 0, sizeof console);
     console.background = background;
     console.on_control = on_control;
+    console.break_key = CTRL_C;
     console_set_size(24, 80);
+}
+
+void console_set_break_key(int key) {
+    console.break_key = (uint8_t)key;
+}
+
+bool console_is_break(int byte) {
+    return byte > 0 && byte == (console.running ? console.break_key : CTRL_C);
 }
 
 void console_set_raw(bool raw) {
@@ -50,7 +60,7 @@ bool console_is_busy(void) {
     return console.flushing || console.polling;
 }
 
-// Ctrl-C that came together with the line it is to stop. Behind a further line it is left for then:
+// A break that came together with the line it is to stop. Behind a further line it is left for then:
 // a script piped in must not lose the lines between.
 static void look_for_break_typed_ahead(void) {
     for (unsigned i = console.taken; i != console.received; i++) {
@@ -58,7 +68,7 @@ static void look_for_break_typed_ahead(void) {
         if (byte == '\r' || byte == '\n') {
             return;
         }
-        if (byte == CTRL_C) {
+        if (console_is_break(byte)) {
             console.taken = i + 1;
             console.break_pending = true;
             return;
@@ -97,15 +107,15 @@ bool console_offer_control(int byte) {
 // control characters do not come from a keyboard they wait for their turn: what a script does must not
 // depend on how far ahead of it the script is read.
 static bool acts_at_once(uint8_t byte) {
-    if (byte >= ' ' || console.raw) {
+    if (console.raw) {
         return false;
     }
-    if (byte == CTRL_C && watches_break()) {
+    if (console_is_break(byte) && watches_break()) {
         console.break_pending = true;
         console.taken = console.received;
         return true;
     }
-    return hal_console_break_is_inband() && console_offer_control(byte);
+    return byte < ' ' && hal_console_break_is_inband() && console_offer_control(byte);
 }
 
 static void receive(uint8_t byte) {
@@ -203,6 +213,13 @@ void console_flush(void) {
     console.output_length = 0;
 }
 
+// A VT100 sequence moves the cursor, if at all, in a way that its writer knows about.
+static void follow_escape(char c) {
+    bool opens = console.escape == '\x1b' && c == '[';
+    bool parameter = console.escape != '\x1b' && c >= ' ' && c < '@';
+    console.escape = opens || parameter ? c : 0;
+}
+
 static void put(char c) {
     if (console.output_length == OUTPUT_SIZE) {
         if (console.flushing) { // the background prints while the terminal does not read: no room
@@ -211,10 +228,10 @@ static void put(char c) {
         console_flush();
     }
     console.output[console.output_length++] = (uint8_t)c;
-    if (console.in_escape) {
-        console.in_escape = c == '[' || (c >= '0' && c <= '9');
+    if (console.escape != 0) {
+        follow_escape(c);
     } else if (c == '\x1b') {
-        console.in_escape = true;
+        console.escape = c;
     } else if (c == '\r') {
         console.column = 0;
     } else if (c == '\t') {

@@ -16,10 +16,17 @@ void console_start(void (*background)(void), console_control_t on_control);
 
 // ---- Input ---------------------------------------------------------------------------------------
 
-// While a program or a command runs, Ctrl-C in the received bytes is not input but a request to stop,
-// which also throws away what was typed before it. Other control characters are offered to `on_control`
-// at all times, as soon as they come from a terminal and ahead of all input before them.
+// While a program or a command runs, the break key in the received bytes is not input but a request to
+// stop, which also throws away what was typed before it. Other control characters are offered to
+// `on_control` at all times, as soon as they come from a terminal and ahead of all input before them.
 void console_set_running(bool running);
+
+// Which byte (1 to 255) ends a program; 0: none does. Ctrl-C to begin with. At the prompt it is always
+// Ctrl-C, whatever this says.
+void console_set_break_key(int key);
+
+// True if the byte asks for the end of what is being done: the break key, at the prompt Ctrl-C.
+bool console_is_break(int byte);
 
 // While on, every byte is input and none acts by itself: for protocols whose bytes mean something else.
 void console_set_raw(bool raw);

@@ -13,7 +13,6 @@
 
 enum {
     KEY_CTRL_A = 1,
-    KEY_CTRL_C = 3,
     KEY_CTRL_E = 5,
     KEY_BACKSPACE = 8,
     KEY_TAB = 9,
@@ -380,7 +379,7 @@ line_editor_result_t line_editor_read(const line_editor_options_t *options, cons
             result = finish(LINE_EDITOR_LINE);
             break;
         }
-        if (key == KEY_CTRL_C || console_break_pending()) {
+        if (console_is_break(key) || console_break_pending()) {
             editor.length = 0;
             result = finish(LINE_EDITOR_BREAK);
             break;

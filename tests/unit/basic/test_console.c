@@ -35,6 +35,27 @@ static void test_ctrl_c_ends_a_pause_at_once(void) {
     TEST_ASSERT_LESS_THAN_UINT64(21000, board.time_us);
 }
 
+static void test_another_break_key(void) {
+    console_set_break_key('q');
+    board_type_at(5000, "\x03");
+    board_type_at(20000, "q");
+    const char *shown = board_session("DO:PAUSE 1:LOOP\r");
+    TEST_ASSERT_EQUAL_UINT(1, board.breaks);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(20000, board.time_us);
+    TEST_ASSERT_NULL(strstr(shown, "Error"));
+    shown = board_session("q\x03PRINT 2\r"); // at the prompt nothing has changed
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 2\r\n"));
+    TEST_ASSERT_EQUAL_UINT(2, board.breaks);
+}
+
+static void test_no_break_key(void) {
+    console_set_break_key(0);
+    board_type_at(5000, "\x03");
+    const char *shown = board_session("PAUSE 100:PRINT 7\r");
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 7\r\n"));
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT64(100000, board.time_us);
+}
+
 static void test_ctrl_c_at_the_prompt_clears_the_line(void) {
     const char *shown = board_session("PRINT 1\x03PRINT 2\r");
     TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 2\r\n"));
@@ -237,6 +258,8 @@ int main(void) {
     RUN_TEST(test_a_pasted_line_is_echoed_in_one_write);
     RUN_TEST(test_ctrl_c_ends_a_loop_without_a_pause);
     RUN_TEST(test_ctrl_c_ends_a_pause_at_once);
+    RUN_TEST(test_another_break_key);
+    RUN_TEST(test_no_break_key);
     RUN_TEST(test_ctrl_c_at_the_prompt_clears_the_line);
     RUN_TEST(test_ctrl_c_ends_an_input);
     RUN_TEST(test_a_terminal_that_does_not_read_blocks_nothing_but_the_output);
