@@ -6,36 +6,10 @@
 #include <string.h>
 
 #include "console.h"
-#include "hal/hal.h"
 #include "history.h"
+#include "keys.h"
 
-#define ESCAPE_WAIT_US 50000u // an Escape without a sequence behind it is a key of its own
-
-enum {
-    KEY_CTRL_A = 1,
-    KEY_CTRL_E = 5,
-    KEY_BACKSPACE = 8,
-    KEY_TAB = 9,
-    KEY_LINE_FEED = 10,
-    KEY_RETURN = 13,
-    KEY_CTRL_U = 21,
-    KEY_CTRL_X = 24,
-    KEY_CTRL_Z = 26,
-    KEY_ESCAPE = 27,
-    KEY_DELETE_BACK = 127,
-    KEY_UP = 256,
-    KEY_DOWN,
-    KEY_LEFT,
-    KEY_RIGHT,
-    KEY_HOME,
-    KEY_END,
-    KEY_INSERT,
-    KEY_DELETE,
-    KEY_F1,
-    KEY_F2,
-    KEY_NONE,
-    KEY_NO_INPUT,
-};
+#define DELETE_BACK 127
 
 static struct {
     char line[LINE_EDITOR_MAX + 1];
@@ -44,7 +18,6 @@ static struct {
     const line_editor_options_t *options;
     bool overwrite;
     bool too_long;
-    bool skip_line_feed; // the last line ended with a carriage return
     bool active;
     bool at_margin;
     unsigned age; // lines back in the history, 0: the line being typed
@@ -152,106 +125,6 @@ static void replace_line(const char *text, size_t length) {
     draw_from(0);
 }
 
-// ---- Keys ----------------------------------------------------------------------------------------
-
-static int wait_byte(uint64_t until_us) {
-    for (;;) {
-        int byte = console_take();
-        if (byte >= 0) {
-            return byte;
-        }
-        if (console_break_pending() || hal_end_of_input() || hal_time_us() >= until_us) {
-            return -1;
-        }
-        console_wait(until_us);
-    }
-}
-
-static int key_of_number(unsigned number) {
-    switch (number) {
-    case 1:
-    case 7:
-        return KEY_HOME;
-    case 2:
-        return KEY_INSERT;
-    case 3:
-        return KEY_DELETE;
-    case 4:
-    case 8:
-        return KEY_END;
-    case 11:
-        return KEY_F1;
-    case 12:
-        return KEY_F2;
-    default:
-        return KEY_NONE;
-    }
-}
-
-static int key_of_letter(int letter) {
-    switch (letter) {
-    case 'A':
-        return KEY_UP;
-    case 'B':
-        return KEY_DOWN;
-    case 'C':
-        return KEY_RIGHT;
-    case 'D':
-        return KEY_LEFT;
-    case 'H':
-        return KEY_HOME;
-    case 'F':
-        return KEY_END;
-    case 'P':
-        return KEY_F1;
-    case 'Q':
-        return KEY_F2;
-    default:
-        return KEY_NONE;
-    }
-}
-
-// The rest of a VT100 sequence. A byte that cannot belong to one is left for the next key.
-static int read_sequence(void) {
-    uint64_t until_us = hal_time_us() + ESCAPE_WAIT_US;
-    int byte = wait_byte(until_us);
-    if (byte != '[' && byte != 'O') {
-        if (byte >= 0) {
-            console_untake(byte);
-        }
-        return KEY_NONE;
-    }
-    unsigned number = 0;
-    for (;;) {
-        byte = wait_byte(until_us);
-        if (byte >= '0' && byte <= '9') {
-            number = number < 1000 ? number * 10 + (unsigned)(byte - '0') : number;
-        } else if (byte == '~') {
-            return key_of_number(number);
-        } else if (byte != ';') {
-            break;
-        }
-    }
-    if (byte >= 0 && byte < ' ') {
-        console_untake(byte);
-        return KEY_NONE;
-    }
-    return key_of_letter(byte);
-}
-
-static int read_key(void) {
-    int byte = wait_byte(UINT64_MAX);
-    if (byte < 0) {
-        return KEY_NO_INPUT;
-    }
-    bool second_of_pair = byte == KEY_LINE_FEED && editor.skip_line_feed;
-    editor.skip_line_feed = byte == KEY_RETURN;
-    if (second_of_pair) {
-        return KEY_NONE;
-    }
-    return byte == KEY_ESCAPE ? read_sequence() : byte;
-}
-
 // ---- Editing -------------------------------------------------------------------------------------
 
 static void insert(char c) {
@@ -298,44 +171,44 @@ static void recall(int step) {
 
 static void edit(int key) {
     switch (key) {
-    case KEY_LEFT:
+    case KEYS_LEFT:
         set_cursor(editor.cursor > 0 ? editor.cursor - 1 : 0);
         break;
-    case KEY_RIGHT:
+    case KEYS_RIGHT:
         set_cursor(editor.cursor < editor.length ? editor.cursor + 1 : editor.cursor);
         break;
-    case KEY_HOME:
-    case KEY_CTRL_A:
+    case KEYS_HOME:
+    case KEYS_CONTROL('A'):
         set_cursor(0);
         break;
-    case KEY_END:
+    case KEYS_END:
         set_cursor(editor.length);
         break;
-    case KEY_INSERT:
+    case KEYS_INSERT:
         editor.overwrite = !editor.overwrite;
         break;
-    case KEY_BACKSPACE:
-    case KEY_DELETE_BACK:
+    case '\b':
+    case DELETE_BACK:
         if (editor.cursor > 0) {
             set_cursor(editor.cursor - 1);
             delete_at_cursor();
         }
         break;
-    case KEY_DELETE:
+    case KEYS_DELETE:
         delete_at_cursor();
         break;
-    case KEY_CTRL_U:
+    case KEYS_CONTROL('U'):
         replace_line("", 0);
         break;
-    case KEY_UP:
-    case KEY_CTRL_E:
+    case KEYS_UP:
+    case KEYS_CONTROL('E'):
         recall(1);
         break;
-    case KEY_DOWN:
-    case KEY_CTRL_X:
+    case KEYS_DOWN:
+    case KEYS_CONTROL('X'):
         recall(-1);
         break;
-    case KEY_TAB:
+    case KEYS_TAB:
         insert(editor.options->keep_tabs ? '\t' : ' ');
         break;
     default:
@@ -374,8 +247,8 @@ line_editor_result_t line_editor_read(const line_editor_options_t *options, cons
     console_print(options->prompt);
     line_editor_result_t result;
     for (;;) {
-        int key = read_key();
-        if (key == KEY_RETURN || key == KEY_LINE_FEED) {
+        int key = keys_read(UINT64_MAX);
+        if (key == KEYS_RETURN) {
             result = finish(LINE_EDITOR_LINE);
             break;
         }
@@ -384,15 +257,15 @@ line_editor_result_t line_editor_read(const line_editor_options_t *options, cons
             result = finish(LINE_EDITOR_BREAK);
             break;
         }
-        if (key == KEY_CTRL_Z || key == KEY_F1) {
+        if (key == KEYS_CONTROL('Z') || key == KEYS_F1) {
             result = finish(LINE_EDITOR_FINISHED);
             break;
         }
-        if (key == KEY_F2) {
+        if (key == KEYS_F2) {
             result = finish(LINE_EDITOR_FINISHED_RUN);
             break;
         }
-        if (key == KEY_NO_INPUT) {
+        if (key == KEYS_NO_INPUT) {
             editor.active = false;
             bool partial = editor.length > 0 || editor.too_long;
             result = partial ? finish(LINE_EDITOR_LINE) : LINE_EDITOR_END;
