@@ -9,10 +9,11 @@ function(stepmite_firmware_image target main)
     # newlib's printf, so that numbers look the same on the board and on the host.
     pico_set_printf_implementation(${target} compiler)
 
-    # main() on a stack of its own (rp2_stack.c), and an end of the image below the storage (rp2_storage.c).
-    set(storage_script ${CMAKE_SOURCE_DIR}/firmware/port/rp2/rp2_storage.ld)
-    target_link_options(${target} PRIVATE -Wl,--wrap=main ${storage_script})
-    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${storage_script})
+    # main() on a stack of its own (rp2_memory.c), and an end of the image below the storage (rp2_storage.c).
+    set(port ${CMAKE_SOURCE_DIR}/firmware/port/rp2)
+    set(scripts ${port}/rp2_memory.ld ${port}/rp2_storage.ld)
+    target_link_options(${target} PRIVATE -Wl,--wrap=main ${scripts})
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${scripts})
 
     # For `picotool info`; the version is in rp2_system.c.
     pico_set_program_name(${target} "StepMite")

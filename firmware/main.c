@@ -6,26 +6,22 @@
 
 #include <stdio.h>
 
-// Variables, strings and the program of BASIC.
-#define ARENA_SIZE (96u * 1024u)
-
-static struct {
-    _Alignas(8) uint8_t arena[ARENA_SIZE];
-    char banner[120];
-} start;
+static char banner[120];
 
 static void start_basic(void) {
-    snprintf(start.banner, sizeof start.banner,
+    size_t arena_size;
+    void *arena = hal_memory(&arena_size);
+    snprintf(banner, sizeof banner,
              "StepMite %s on %s\r\n%u bytes free, HELP lists commands\r\n\r\n",
-             hal_firmware_version(), hal_board_name(), ARENA_SIZE);
+             hal_firmware_version(), hal_board_name(), (unsigned)arena_size);
     static basic_config_t config = {
-        .arena = start.arena,
-        .arena_size = ARENA_SIZE,
         .background = basic_cmds_background,
         .on_break = basic_cmds_break,
         .on_control = basic_cmds_control,
-        .banner = start.banner,
+        .banner = banner,
     };
+    config.arena = arena;
+    config.arena_size = arena_size;
     config.commands = basic_cmds_commands;
     config.command_count = basic_cmds_command_count;
     config.functions = basic_cmds_functions;

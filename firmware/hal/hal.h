@@ -42,6 +42,9 @@ const char *hal_board_name(void);
 // From `git describe`, for instance "0.1.0-12-gabc1234".
 const char *hal_firmware_version(void);
 
+// All memory that is left over, 8-aligned, for whoever takes it at start-up.
+void *hal_memory(size_t *size);
+
 // ---- Time ----------------------------------------------------------------------------------------
 
 // Microseconds since start. Any context.

@@ -60,7 +60,7 @@ END FUNCTION
         (DEEP % 5000, None),
         ("s\nSUB s\n  LOCAL t$ = SPACE$(255)\n  s\nEND SUB\n", None),
         ("s\nSUB s\n  LOCAL a(2000)\n  s\nEND SUB\n", None),
-        ("DIM a$(400)\n", None),
+        ("DIM a$(500)\n", None),
         ("PRINT " + "(" * 32 + "1" + ")" * 32 + "\n", [" 1"]),
         ("PRINT " + "(" * 120 + "1" + ")" * 120 + "\n", None),
         ("PRINT " + "-" * 200 + "1\n", None),

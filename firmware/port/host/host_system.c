@@ -16,6 +16,9 @@
 #include "host_trace.h"
 #include "version.h"
 
+// Of the size that a Raspberry Pi Pico has to offer: what does not fit there shall not fit here.
+#define MEMORY_SIZE (112u * 1024u)
+
 void hal_init(int argc, char **argv) {
     const host_options_t *options = host_options_parse(argc, argv);
     if (options->flash_path != NULL) {
@@ -40,6 +43,12 @@ void hal_init(int argc, char **argv) {
 
 void hal_exit(int code) {
     exit(code);
+}
+
+void *hal_memory(size_t *size) {
+    static _Alignas(8) uint8_t memory[MEMORY_SIZE];
+    *size = sizeof memory;
+    return memory;
 }
 
 const char *hal_board_name(void) {

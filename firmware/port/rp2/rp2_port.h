@@ -37,10 +37,13 @@ _Noreturn void rp2_fault_panic(const char *format, ...);
 // The HardFault handler; the vector table has it by this name.
 void isr_hardfault(void);
 
-// ---- Stack ----------------------------------------------------------------------------------------
+// ---- Memory ---------------------------------------------------------------------------------------
 
 // Makes running over the end of main's stack a fault.
 void rp2_stack_guard(void);
+
+// Addresses the linker fills in (rp2_memory.ld): the end of all variables, and main's stack.
+extern uint8_t rp2_variables_end[], rp2_main_stack[], rp2_main_stack_top[];
 
 // ---- Console --------------------------------------------------------------------------------------
 

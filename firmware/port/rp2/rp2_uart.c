@@ -14,8 +14,8 @@
 #define TX_GPIO 0u
 #define RX_GPIO 1u
 #define BAUD 115200u
-#define TX_SIZE 2048u
-#define RX_SIZE 2048u // 0.18 s of input while main is busy
+#define TX_SIZE 512u
+#define RX_SIZE 1024u // 0.09 s of input while main is busy
 #define RX_ERROR_BITS (UART_UARTDR_BE_BITS | UART_UARTDR_PE_BITS | UART_UARTDR_FE_BITS)
 // Stands in the input where bytes were lost. No command contains it, so the line is refused: without one
 // digit it would mean something else.
