@@ -14,7 +14,6 @@
 #include "vm.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
-#define PAUSE_MAX_MS 1e15
 #define DISPLAY_MAX 255
 #define DISPLAY_ROWS_MIN 2
 #define DISPLAY_COLUMNS_MIN 20
@@ -49,21 +48,6 @@ ACTION_BODY(autosave) {
     (void)arguments;
     (void)count;
     stop_with(VM_REQUEST_AUTOSAVE);
-}
-
-ACTION_BODY(pause) {
-    (void)count;
-    double ms = value_to_number(arguments);
-    if (!(ms >= 0 && ms < PAUSE_MAX_MS)) {
-        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
-    }
-    uint64_t until_us = hal_time_us() + (uint64_t)(ms * 1000.0);
-    while (hal_time_us() < until_us && !console_break_pending()) {
-        console_wait(until_us);
-    }
-    if (console_break_pending()) {
-        errors_break();
-    }
 }
 
 ACTION_BODY(timer) {

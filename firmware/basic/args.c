@@ -10,6 +10,7 @@
 #include "expressions.h"
 #include "lexer.h"
 #include "names.h"
+#include "symbols.h"
 #include "words.h"
 
 static const basic_config_t *config;
@@ -44,6 +45,17 @@ static void compile_word(bool only_string) {
     emit_byte(only_string);
     emit_text(name->text, name->length);
     lexer_next();
+}
+
+// The name of a SUB, or of a string variable that holds one.
+static void compile_routine_name(void) {
+    const lexer_token_t *name = lexer_now();
+    if (symbols_find(SYMBOLS_ROUTINE, 0, name->text, name->length) != NULL) {
+        emit_string(name->text, name->length);
+        lexer_next();
+    } else {
+        compile_word(true);
+    }
 }
 
 static bool is_pin_name(const lexer_token_t *name) {
@@ -86,12 +98,21 @@ static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) 
             compile_word(true);
             return;
         }
+        if (spec->kind == BASIC_ARG_ROUTINE) {
+            compile_routine_name();
+            return;
+        }
     }
     if (alone && spec->kind == BASIC_ARG_PIN && token->kind == LEXER_NUMBER) {
         compile_number_token();
         return;
     }
     expressions_compile();
+}
+
+void args_compile_routine(void) {
+    static const basic_arg_spec_t spec = {.name = "sub", .kind = BASIC_ARG_ROUTINE};
+    compile_argument(&spec, false);
 }
 
 // True if the word ELSE starts at `p`.

@@ -19,12 +19,18 @@ void args_compile_command(int row);
 // The same for a function and its parentheses.
 void args_compile_function(int row);
 
+// A BASIC_ARG_ROUTINE of a statement of the language; args_routine() makes its value a routine.
+void args_compile_routine(void);
+
 // ---- Running -------------------------------------------------------------------------------------
 
 void args_run(unsigned row, const value_t *values, unsigned count);
 
 // Leaves the result in values[0].
 void args_evaluate(unsigned row, value_t *values, unsigned count);
+
+// The SUB that a value names, 0 for the number 0. Errors: no such SUB, it has parameters.
+basic_routine_t args_routine(const char *name, const value_t *value);
 
 // Checks and converts `count` values by the specification. Error: names the argument and its range.
 void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values,

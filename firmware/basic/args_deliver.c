@@ -6,6 +6,7 @@
 #include "args.h"
 #include "choices.h"
 #include "errors.h"
+#include "events.h"
 #include "hal/pins.h"
 #include "memory.h"
 #include "number_text.h"
@@ -154,6 +155,16 @@ static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basi
     arg->number = (double)arg->integer;
 }
 
+basic_routine_t args_routine(const char *name, const value_t *value) {
+    if (!value_is_numeric(value)) {
+        return events_routine(value->text, value->length);
+    }
+    if (value_to_number(value) != 0.0) {
+        errors_fail_with(ERR_ARGUMENT, "%s: expected the name of a SUB", name);
+    }
+    return 0;
+}
+
 static void deliver(const basic_arg_spec_t *spec, const value_t *value, basic_arg_t *arg) {
     arg->given = true;
     switch (spec->kind) {
@@ -170,6 +181,9 @@ static void deliver(const basic_arg_spec_t *spec, const value_t *value, basic_ar
         break;
     case BASIC_ARG_PIN:
         deliver_pin(spec, value, arg);
+        break;
+    case BASIC_ARG_ROUTINE:
+        arg->integer = args_routine(spec->name, value);
         break;
     default:
         deliver_text(spec, value, arg);

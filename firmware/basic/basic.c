@@ -10,6 +10,7 @@
 #include "compiler.h"
 #include "console.h"
 #include "errors.h"
+#include "events.h"
 #include "hal/hal.h"
 #include "help.h"
 #include "line_editor.h"
@@ -130,6 +131,8 @@ static void print_error(const char *message) {
     console_new_line();
 }
 
+static void nothing(void) {}
+
 // ---- Running -------------------------------------------------------------------------------------
 
 static void handle_break(void) {
@@ -141,16 +144,18 @@ static void handle_break(void) {
 }
 
 // Runs code to its end and reports what ended it.
-static err_t run(const uint8_t *code) {
+static err_t run(const uint8_t *code, void (*on_error)(void)) {
     uint8_t *scratch = memory.scratch;
     bool broken;
     console_set_running(true);
     err_t error = vm_run(code, &broken);
+    events_clear();
     console_set_running(false);
     memory.scratch = scratch;
     if (broken || console_break_pending()) {
         handle_break();
     } else if (error != ERR_OK) {
+        on_error();
         print_error(err_message());
     }
     return error;
@@ -162,7 +167,7 @@ static err_t run_program(void) {
         if (code == NULL) {
             return ERR_OK;
         }
-        err_t error = run(code);
+        err_t error = run(code, config->on_error != NULL ? config->on_error : nothing);
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
         }
@@ -223,7 +228,7 @@ static void execute_line(void) {
     if (errors_try(compile_line) != ERRORS_NONE) {
         print_error(err_message());
     } else {
-        run(line.code);
+        run(line.code, nothing);
     }
     memory.scratch = scratch;
     vm_request_t request = vm.request;
@@ -233,11 +238,10 @@ static void execute_line(void) {
 
 // ---- Face ----------------------------------------------------------------------------------------
 
-static void no_background(void) {}
-
 void basic_start(const basic_config_t *new_config) {
     config = new_config;
-    vm.background = config->background != NULL ? config->background : no_background;
+    vm.background = config->background != NULL ? config->background : nothing;
+    vm.on_clear = config->on_clear != NULL ? config->on_clear : nothing;
     waiting.length = 0;
     console_start(background, config->on_control);
     line_editor_start();

@@ -40,6 +40,8 @@ typedef enum {
     BASIC_ARG_WORD, // a bare word, or a string expression                   -> text
     BASIC_ARG_PIN,  // GPn, "GPn", or a number, which is a GPIO number. With
     // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
+    BASIC_ARG_ROUTINE, // the name of a SUB without parameters, bare or a string expression; a literal 0
+    // or blank means none                                                  -> integer
     BASIC_ARG_RAW, // the rest of the statement as typed, comment included; ends at a colon outside
                    // quotes, parentheses and comments                      -> text
 } basic_arg_kind_t;
@@ -103,6 +105,32 @@ typedef struct {
     const char *help;
 } basic_function_t;
 
+// ---- Events --------------------------------------------------------------------------------------
+
+// Interrupts of a program: an event calls a SUB at the start of the next statement, or while PAUSE waits;
+// never inside the SUB of another one. They live while a program (or a line) runs.
+
+typedef uint16_t basic_routine_t; // a SUB of the program, valid while it runs; 0: none
+
+// In the order in which they are served.
+enum {
+    BASIC_EVENT_TICK1,
+    BASIC_EVENT_TICK2,
+    BASIC_EVENT_TICK3,
+    BASIC_EVENT_TICK4,
+    BASIC_EVENT_KEY,
+    BASIC_EVENT_KEY_CODE,
+    BASIC_EVENT_PRODUCT, // the product numbers its own from here
+    BASIC_EVENTS = 32
+};
+
+// Which SUB the event calls; 0: none, and an event that waits is forgotten.
+void basic_set_event(unsigned event, basic_routine_t routine);
+
+// The event has happened. Has no effect without a SUB; several before it is served are one.
+// Context: main loop, for instance the background.
+void basic_raise_event(unsigned event);
+
 // ---- Start ---------------------------------------------------------------------------------------
 
 typedef struct {
@@ -115,6 +143,10 @@ typedef struct {
     void (*background)(
         void); // called at each statement and whenever the interpreter waits; NULL: none
     void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
+    // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL: none.
+    void (*on_clear)(void);
+    // An error has ended a program (not a line at the prompt), before it is printed. NULL: none.
+    void (*on_error)(void);
     // Called as soon as a control character other than Ctrl-C comes from the terminal: in the middle of a
     // statement, of output or of a line being typed. True: it was meant for the product and is no input.
     // May call basic_notice(); must not raise errors. NULL: all are input.

@@ -5,11 +5,13 @@
 #include <string.h>
 
 #include "errors.h"
+#include "events.h"
 #include "memory.h"
 #include "variables.h"
 #include "vm.h"
 
-#define STACK_MARGIN 8 // places an expression in the routine has at least
+#define STACK_MARGIN 8  // places an expression in the routine has at least
+#define FRAMES_MARGIN 8 // calls that the SUB of an event may nest
 
 static vm_frame_t *push_frame(void) {
     if (vm.depth >= VM_FRAMES_MAX) {
@@ -129,6 +131,11 @@ void calls_enter(const symbols_routine_t *routine, unsigned count) {
     vm.pc = memory.base + routine->code;
 }
 
+bool calls_have_room(const symbols_routine_t *routine) {
+    const value_t *top = vm.sp + 1 + routine->locals + STACK_MARGIN;
+    return vm.depth + FRAMES_MARGIN <= VM_FRAMES_MAX && top <= memory.values_limit;
+}
+
 void calls_leave(void) {
     while (vm.depth > 0 && vm.frames[vm.depth - 1].routine == NULL) {
         vm.depth--; // GOSUBs the routine did not return from
@@ -136,6 +143,7 @@ void calls_leave(void) {
     if (vm.depth == 0) {
         errors_fail(ERR_NO_RETURN);
     }
+    bool interrupt = vm.depth == vm.interrupt_depth;
     const vm_frame_t *frame = &vm.frames[--vm.depth];
     value_t *result = vm.locals;
     memory.scratch = frame->scratch;
@@ -154,6 +162,9 @@ void calls_leave(void) {
     vm.scratch_base = frame->scratch_base;
     vm.statement = frame->statement;
     vm.pc = frame->return_pc;
+    if (interrupt) {
+        events_left();
+    }
 }
 
 void calls_gosub(const uint8_t *return_pc) {

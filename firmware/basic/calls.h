@@ -2,6 +2,7 @@
 #ifndef BASIC_CALLS_H
 #define BASIC_CALLS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "symbols.h"
@@ -9,6 +10,9 @@
 // Enters a routine with `count` arguments on the stack, above the place for its value; vm.pc is
 // where to come back to. Errors: argument list, wrong type, nested too deep.
 void calls_enter(const symbols_routine_t *routine, unsigned count);
+
+// True if a SUB without parameters can be entered and still call others.
+bool calls_have_room(const symbols_routine_t *routine);
 
 // Leaves the routine; a FUNCTION's value is on the stack then.
 void calls_leave(void);

@@ -67,6 +67,8 @@ typedef enum {
     OP_HOST_FUNCTION, // n row of the configuration, n arguments
     OP_COMMAND,       // n row of the configuration, n arguments
     OP_ACTION,        // n row of actions.def, n arguments
+    OP_DEADLINE,      // milliseconds on the stack become the time when they have passed
+    OP_WAIT,          // until the time on the stack, serving events
     OP_DATA,          // p next DATA or 0, t
 } code_op_t;
 

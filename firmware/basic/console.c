@@ -34,6 +34,8 @@ static struct {
     unsigned seen;          // bytes that came, input or not; free-running
     void (*background)(void);
     console_control_t on_control;
+    int hot_key; // -1: none
+    void (*hot_key_pressed)(void);
 } console;
 
 void console_start(void (*background)(void), console_control_t on_control) {
@@ -41,6 +43,7 @@ void console_start(void (*background)(void), console_control_t on_control) {
     console.background = background;
     console.on_control = on_control;
     console.break_key = CTRL_C;
+    console.hot_key = -1;
     console_set_size(24, 80);
 }
 
@@ -115,6 +118,10 @@ static bool acts_at_once(uint8_t byte) {
         console.taken = console.received;
         return true;
     }
+    if (byte == console.hot_key && console.running) {
+        console.hot_key_pressed();
+        return true;
+    }
     return byte < ' ' && hal_console_break_is_inband() && console_offer_control(byte);
 }
 
@@ -167,6 +174,15 @@ bool console_has_input(void) {
         console_poll();
     }
     return console.received != console.taken;
+}
+
+bool console_input_waits(void) {
+    return console.received != console.taken;
+}
+
+void console_set_hot_key(int byte, void (*pressed)(void)) {
+    console.hot_key = byte;
+    console.hot_key_pressed = pressed;
 }
 
 int console_take(void) {
@@ -295,4 +311,8 @@ void console_wait(uint64_t until_us) {
         hal_idle(until_us);
         console_poll();
     }
+}
+
+void console_wake(void) {
+    console.seen++;
 }

@@ -43,6 +43,12 @@ void console_clear_break(void);
 // The next byte, or -1 if there is none.
 int console_take(void);
 
+// True if input that came earlier has not been taken yet; does not look for more.
+bool console_input_waits(void);
+
+// While something runs, this byte is not input: `pressed` is called as soon as it comes; -1: none.
+void console_set_hot_key(int byte, void (*pressed)(void));
+
 // Puts the byte taken last back; at most one.
 void console_untake(int byte);
 
@@ -87,5 +93,8 @@ void console_background(void);
 
 // Sends pending output, lets the background work and sleeps until something happens or `until_us`.
 void console_wait(uint64_t until_us);
+
+// Something has happened that a console_wait() under way must not sleep over.
+void console_wake(void);
 
 #endif

@@ -80,6 +80,8 @@ static const char *kind_text(basic_arg_kind_t kind) {
         return "a word or a string";
     case BASIC_ARG_PIN:
         return "a pin: GP0 to GP28, or its number";
+    case BASIC_ARG_ROUTINE:
+        return "the name of a SUB without parameters, or 0";
     case BASIC_ARG_RAW:
         return "the rest of the line";
     default:

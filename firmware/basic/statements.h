@@ -22,7 +22,8 @@ bool statements_compile_other(void);
 // Closes a SUB or FUNCTION that has no end; a call of it raises the error.
 void statements_abandon_routine(void);
 
-// statements_flow.c, statements_routine.c, statements_data.c, statements_io.c, statements_system.c
+// statements_flow.c, statements_routine.c, statements_data.c, statements_io.c, statements_system.c,
+// statements_events.c
 #define STATEMENTS_DECLARE(name) void statements_##name(void);
 STATEMENTS_DECLARE(if)
 STATEMENTS_DECLARE(elseif)
@@ -45,6 +46,8 @@ STATEMENTS_DECLARE(on)
 STATEMENTS_DECLARE(end)
 STATEMENTS_DECLARE(end_routine)
 STATEMENTS_DECLARE(on_error)
+STATEMENTS_DECLARE(on_key)
+STATEMENTS_DECLARE(settick)
 STATEMENTS_DECLARE(sub)
 STATEMENTS_DECLARE(function)
 STATEMENTS_DECLARE(local)

@@ -351,6 +351,10 @@ void statements_on(void) {
         statements_on_error();
         return;
     }
+    if (lexer_take_word("KEY")) {
+        statements_on_key();
+        return;
+    }
     uint16_t hidden = names_hidden(1);
     expressions_compile();
     emit_op(OP_FUNCTION);

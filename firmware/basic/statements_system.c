@@ -11,7 +11,8 @@
 
 void statements_pause(void) {
     expressions_compile();
-    emit_action(ACTIONS_PAUSE, 1);
+    emit_op(OP_DEADLINE);
+    emit_op(OP_WAIT);
 }
 
 // TIMER = v; TIMER alone, at the prompt, shows it.

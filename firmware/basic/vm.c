@@ -12,6 +12,7 @@
 #include "code.h"
 #include "console.h"
 #include "errors.h"
+#include "events.h"
 #include "functions.h"
 #include "hal/hal.h"
 #include "variables.h"
@@ -20,14 +21,20 @@
 // buffers), and between two times that output is sent.
 #define POLL_EVERY 16
 
+#define PAUSE_MAX_MS 1e15
+
 vm_t vm;
 
 static unsigned poll_countdown = POLL_EVERY;
 
 void vm_reset(void) {
     void (*background)(void) = vm.background;
+    void (*on_clear)(void) = vm.on_clear;
     memset(&vm, 0, sizeof vm);
     vm.background = background;
+    vm.on_clear = on_clear;
+    events_clear();
+    on_clear();
     vm.default_type = VALUE_FLOAT;
 }
 
@@ -168,6 +175,31 @@ static void load_constant(value_t *value, const uint8_t *bytes, value_type_t typ
     value->flags = 0;
 }
 
+// PAUSE: milliseconds become the time it ends.
+static void compute_deadline(value_t *value) {
+    double ms = value_to_number(value);
+    if (!(ms >= 0 && ms < PAUSE_MAX_MS)) {
+        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
+    }
+    value_set_integer(value, (int64_t)(hal_time_us() + (uint64_t)(ms * 1000.0)));
+}
+
+// Waits until then, or until the SUB of an event has been entered: true.
+static bool wait_is_interrupted(uint64_t until_us) {
+    for (;;) {
+        if (console_break_pending()) {
+            errors_break();
+        }
+        if (events_watch != 0 && events_serve()) {
+            return true;
+        }
+        if (hal_time_us() >= until_us) {
+            return false;
+        }
+        console_wait(events_next_us(until_us));
+    }
+}
+
 static inline bool both_integers(const value_t *left) {
     return left[0].type == VALUE_INTEGER && left[1].type == VALUE_INTEGER;
 }
@@ -188,6 +220,14 @@ static void loop(void) {
             begin_statement(pc - 1);
             sp = vm.operands;
             pc += 4;
+            if (events_watch != 0) {
+                vm.pc = pc;
+                vm.sp = sp;
+                if (events_serve()) {
+                    pc = vm.pc;
+                    sp = vm.sp;
+                }
+            }
             break;
         case OP_END:
             return;
@@ -373,6 +413,19 @@ static void loop(void) {
             actions_table[pc[0]](sp, pc[1]);
             pc = vm.pc;
             break;
+        case OP_DEADLINE:
+            compute_deadline(sp - 1);
+            break;
+        case OP_WAIT:
+            vm.pc = pc - 1; // once more behind the SUB of an event
+            vm.sp = sp;
+            if (wait_is_interrupted((uint64_t)sp[-1].integer)) {
+                pc = vm.pc;
+                sp = vm.sp;
+            } else {
+                sp--;
+            }
+            break;
         case OP_DATA:
             pc += 4 + pc[3];
             break;
@@ -394,6 +447,7 @@ err_t vm_run(const uint8_t *code, bool *broken) {
     vm.pc = code;
     vm.statement = code;
     vm.depth = 0;
+    vm.interrupt_depth = 0;
     vm.locals = vm.operands = memory.values;
     vm.scratch_base = memory.scratch;
     vm.stop = false;

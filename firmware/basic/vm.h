@@ -36,6 +36,7 @@ typedef struct {
     uint8_t *scratch_base;    // where the scratch is at the start of a statement
     const uint8_t *statement; // its OP_STATEMENT
     unsigned depth;           // frames in use
+    unsigned interrupt_depth; // `depth` while the SUB of an event is under way; 0: none is
     vm_frame_t frames[VM_FRAMES_MAX];
 
     uint8_t default_type; // OPTION DEFAULT; VALUE_NONE: must be said
@@ -47,6 +48,7 @@ typedef struct {
     vm_request_t request;
     char error_text[ERR_MESSAGE_SIZE]; // MM.ERRMSG$; empty: no error
     void (*background)(void);          // never NULL
+    void (*on_clear)(void);            // never NULL
 } vm_t;
 
 extern vm_t vm;

@@ -292,6 +292,9 @@ static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
     case BASIC_ARG_PIN:
         fuzz_text_add(text, fuzz_random_percent(60) ? "GP%d" : "%d", fuzz_random_between(0, 30));
         break;
+    case BASIC_ARG_ROUTINE:
+        fuzz_text_add(text, fuzz_random_percent(60) ? "handler" : "0");
+        break;
     case BASIC_ARG_RAW:
         add_gcode(text);
         break;

@@ -6,10 +6,10 @@
 #include "basic_cmds/basic_cmds.h"
 
 static const char *const kinds[] = {
-    [BASIC_ARG_NUMBER] = "number",    [BASIC_ARG_INTEGER] = "whole number",
-    [BASIC_ARG_TEXT] = "string",      [BASIC_ARG_CHOICE] = "word",
-    [BASIC_ARG_WORD] = "word",        [BASIC_ARG_PIN] = "pin",
-    [BASIC_ARG_RAW] = "rest of line",
+    [BASIC_ARG_NUMBER] = "number", [BASIC_ARG_INTEGER] = "whole number",
+    [BASIC_ARG_TEXT] = "string",   [BASIC_ARG_CHOICE] = "word",
+    [BASIC_ARG_WORD] = "word",     [BASIC_ARG_PIN] = "pin",
+    [BASIC_ARG_ROUTINE] = "SUB",   [BASIC_ARG_RAW] = "rest of line",
 };
 
 static bool has(const basic_arg_spec_t *arg, unsigned flag) {
