@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "actions.h"
+#include "channels.h"
 #include "console.h"
 #include "errors.h"
 #include "line_editor.h"
@@ -85,6 +86,21 @@ void actions_input_line(value_t *arguments, unsigned count) {
     read_line(prompt_of(&arguments[0], value_is_true(&arguments[1])));
 }
 
+static void read_channel(const value_t *channel) {
+    unsigned number = channels_number(channel);
+    if (number == 0) {
+        read_line("");
+        return;
+    }
+    input.text[channels_read_line(number, input.text)] = '\0';
+    input.rest = input.text;
+}
+
+void actions_input_channel(value_t *arguments, unsigned count) {
+    (void)count;
+    read_channel(arguments);
+}
+
 // The next field up to a comma outside quotes, without blanks around it.
 static value_t next_field(void) {
     value_t field;
@@ -133,5 +149,18 @@ void actions_line_input(value_t *arguments, unsigned count) {
     read_line(prompt_of(&arguments[0], false));
     value_t line;
     value_set_text(&line, input.text, strlen(input.text));
+    value_write(&arguments[1], &line);
+}
+
+void actions_line_input_channel(value_t *arguments, unsigned count) {
+    (void)count;
+    unsigned number = channels_number(&arguments[0]);
+    value_t line;
+    if (number == 0) {
+        read_line("");
+        value_set_text(&line, input.text, strlen(input.text));
+    } else {
+        value_set_text(&line, input.text, channels_read_line(number, input.text));
+    }
     value_write(&arguments[1], &line);
 }

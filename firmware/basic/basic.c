@@ -7,6 +7,7 @@
 
 #include "args.h"
 #include "autosave.h"
+#include "channels.h"
 #include "compiler.h"
 #include "console.h"
 #include "errors.h"
@@ -100,6 +101,7 @@ static void show_waiting_notices(void) {
 // Whenever the console waits and every few statements; the product's part also at each statement.
 static void background(void) {
     show_waiting_notices();
+    channels_background();
     vm.background();
 }
 
@@ -162,12 +164,14 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
 }
 
 static err_t run_program(void) {
-    for (;;) { // a program may say RUN
+    for (;;) {                  // a program may say RUN
+        channels_end_program(); // those the prompt has opened
         const uint8_t *code = program_prepare();
         if (code == NULL) {
             return ERR_OK;
         }
         err_t error = run(code, config->on_error != NULL ? config->on_error : nothing);
+        channels_end_program();
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
         }
@@ -195,6 +199,7 @@ static void serve(vm_request_t request) {
             report(err_raise(ERR_STORAGE_BUSY, "%s", ""));
             break;
         }
+        channels_end_program();
         program_clear();
         report(program_storage_save("", 0));
         break;
@@ -246,6 +251,7 @@ void basic_start(const basic_config_t *new_config) {
     console_start(background, config->on_control);
     line_editor_start();
     args_start(config);
+    channels_start(config);
     help_start(config);
     words_start(config);
     memory_start(config->arena, config->arena_size);

@@ -152,6 +152,9 @@ typedef struct {
     // May call basic_notice(); must not raise errors. NULL: all are input.
     bool (*on_control)(char c);
     const char *banner; // printed by basic_start(), lines end with \r\n
+    // What OPEN takes besides files (basic_device.h); NULL with a count of 0: files only.
+    const struct basic_device *const *devices;
+    size_t device_count;
 } basic_config_t;
 
 // Takes the configuration (which must stay valid), clears everything and prints the banner.

@@ -139,6 +139,23 @@ static void compile_call(symbols_t *symbol) {
     emit_byte(count);
 }
 
+// What the `index`th argument has to be, see functions.h.
+static char type_of_argument(const functions_row_t *function, unsigned index) {
+    size_t last = strlen(function->types) - 1;
+    return function->types[index < last ? index : last];
+}
+
+static void compile_function_argument(char type) {
+    if (type == 'a') {
+        compile_variable(false, true);
+        return;
+    }
+    if (type == 'c') {
+        lexer_take('#');
+    }
+    expressions_compile();
+}
+
 static void compile_function(int row) {
     const functions_row_t *function = &functions_table[row];
     unsigned count = 0;
@@ -150,12 +167,7 @@ static void compile_function(int row) {
             if (count > 0) {
                 lexer_expect(',');
             }
-            if (function->types[0] == 'a' && count == 0) {
-                compile_variable(false, true);
-            } else {
-                expressions_compile();
-            }
-            count++;
+            compile_function_argument(type_of_argument(function, count++));
         }
         leave();
         lexer_expect(')');

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "channels.h"
 #include "errors.h"
 
 const functions_row_t functions_table[] = {
@@ -23,17 +24,21 @@ const functions_row_t functions_table[] = {
     {"CINT", "n", 1, 1, functions_cint, "CINT(number): nearest integer, halves away from zero"},
     {"COS", "f", 1, 1, functions_cos, "COS(radians)"},
     {"DEG", "f", 1, 1, functions_deg, "DEG(radians): degrees"},
+    {"EOF", "c", 1, 1, functions_eof, "EOF([#]n): 1 if there is nothing left to read"},
     {"EXP", "f", 1, 1, functions_exp, "EXP(number)"},
     {"FIELD$", "siss", 2, 4, functions_field, "FIELD$(text$, number [, separators$ [, quotes$]])"},
     {"FIX", "n", 1, 1, functions_fix, "FIX(number): without its decimals"},
     {"FORMAT$", "fs", 1, 2, functions_format, "FORMAT$(number [, \"%8.3f\"])"},
     {"HEX$", "i", 1, 2, functions_hex, "HEX$(number [, digits])"},
     {"INKEY$", "", 0, 0, functions_inkey, "INKEY$: the next typed character or an empty text"},
+    {"INPUT$", "ic", 2, 2, functions_input, "INPUT$(count, [#]n): characters from a channel"},
     {"INSTR", "vvs", 2, 3, functions_instr, "INSTR([start,] text$, pattern$): position or 0"},
     {"INT", "n", 1, 1, functions_int, "INT(number): next integer below"},
     {"LCASE$", "s", 1, 1, functions_lcase, "LCASE$(text$)"},
     {"LEFT$", "si", 2, 2, functions_left, "LEFT$(text$, count)"},
     {"LEN", "s", 1, 1, functions_len, "LEN(text$)"},
+    {"LOC", "c", 1, 1, functions_loc, "LOC([#]n): position in a file, from 1"},
+    {"LOF", "c", 1, 1, functions_lof, "LOF([#]n): size of a file"},
     {"LOG", "f", 1, 1, functions_log, "LOG(number): natural logarithm"},
     {"MAX", "f", 1, 10, functions_max, "MAX(number, number ...)"},
     {"MID$", "si", 2, 3, functions_mid, "MID$(text$, start [, count])"},
@@ -73,6 +78,9 @@ static void convert(value_t *argument, char type) {
         if (!value_is_numeric(argument)) {
             errors_fail(ERR_EXPECTED_NUMBER);
         }
+        break;
+    case 'c':
+        value_set_integer(argument, channels_number(argument));
         break;
     case 's':
         if (argument->type != VALUE_STRING) {

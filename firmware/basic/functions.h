@@ -13,7 +13,7 @@ typedef void (*functions_evaluate_t)(value_t *arguments, unsigned count, value_t
 typedef struct {
     const char *name;
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
-    // n either number, s string, v any value, a a whole array.
+    // n either number, s string, v any value, a a whole array, c number of a channel.
     const char *types;
     uint8_t least; // arguments
     uint8_t most;
@@ -31,7 +31,8 @@ void functions_evaluate(unsigned row, value_t *values, unsigned count);
 void functions_seed(uint64_t seed);
 void functions_set_timer(double now_ms);
 
-// The rows' functions (functions_math.c, functions_string.c, functions_system.c).
+// The rows' functions (functions_channels.c, functions_math.c, functions_string.c,
+// functions_system.c).
 #define FUNCTIONS_DECLARE(name)                                                                    \
     void functions_##name(value_t *arguments, unsigned count, value_t *result);
 FUNCTIONS_DECLARE(abs)
@@ -76,6 +77,10 @@ FUNCTIONS_DECLARE(ucase)
 FUNCTIONS_DECLARE(val)
 FUNCTIONS_DECLARE(bound)
 FUNCTIONS_DECLARE(choice)
+FUNCTIONS_DECLARE(eof)
+FUNCTIONS_DECLARE(input)
+FUNCTIONS_DECLARE(loc)
+FUNCTIONS_DECLARE(lof)
 FUNCTIONS_DECLARE(inkey)
 FUNCTIONS_DECLARE(timer)
 FUNCTIONS_DECLARE(mm_device)

@@ -22,8 +22,8 @@ bool statements_compile_other(void);
 // Closes a SUB or FUNCTION that has no end; a call of it raises the error.
 void statements_abandon_routine(void);
 
-// statements_flow.c, statements_routine.c, statements_data.c, statements_io.c, statements_system.c,
-// statements_events.c
+// statements_flow.c, statements_routine.c, statements_data.c, statements_io.c,
+// statements_channels.c, statements_system.c, statements_events.c
 #define STATEMENTS_DECLARE(name) void statements_##name(void);
 STATEMENTS_DECLARE(if)
 STATEMENTS_DECLARE(elseif)
@@ -62,6 +62,13 @@ STATEMENTS_DECLARE(rem)
 STATEMENTS_DECLARE(print)
 STATEMENTS_DECLARE(input)
 STATEMENTS_DECLARE(line)
+STATEMENTS_DECLARE(open)
+STATEMENTS_DECLARE(close)
+STATEMENTS_DECLARE(seek)
+STATEMENTS_DECLARE(flush)
+STATEMENTS_DECLARE(print_channel)
+STATEMENTS_DECLARE(input_channel)
+STATEMENTS_DECLARE(line_input_channel)
 STATEMENTS_DECLARE(pause)
 STATEMENTS_DECLARE(timer)
 STATEMENTS_DECLARE(randomize)

@@ -18,6 +18,10 @@ static void compile_print_item(void) {
 }
 
 void statements_print(void) {
+    if (lexer_take('#')) {
+        statements_print_channel();
+        return;
+    }
     bool line_open = false; // a separator at the end keeps the line open
     while (!lexer_at_end()) {
         if (lexer_take(';')) {
@@ -35,8 +39,8 @@ void statements_print(void) {
     }
 }
 
-// INPUT ["prompt" ;|,] name, ... - a comma behind the prompt leaves the question mark out.
-void statements_input(void) {
+// ["prompt" ;|,] - a comma behind the prompt leaves the question mark out.
+static void compile_prompt(void) {
     if (lexer_now()->kind == LEXER_STRING) {
         emit_string(lexer_now()->text, lexer_now()->length);
         lexer_next();
@@ -50,6 +54,14 @@ void statements_input(void) {
         emit_integer(1);
     }
     emit_action(ACTIONS_INPUT_LINE, 2);
+}
+
+void statements_input(void) {
+    if (lexer_take('#')) {
+        statements_input_channel();
+    } else {
+        compile_prompt();
+    }
     do {
         expressions_compile_reference();
         emit_action(ACTIONS_INPUT_FIELD, 1);
@@ -73,6 +85,10 @@ static bool has_prompt(void) {
 
 void statements_line(void) {
     lexer_expect_word("INPUT");
+    if (lexer_take('#')) {
+        statements_line_input_channel();
+        return;
+    }
     if (has_prompt()) {
         expressions_compile();
         lexer_expect(',');
