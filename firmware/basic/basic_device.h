@@ -33,8 +33,8 @@ typedef struct basic_device {
     // Takes up to `size` bytes of what is there; *got may be 0.
     err_t (*read)(int handle, void *bytes, size_t size, size_t *got);
 
-    bool (*at_end)(int handle);       // EOF(): there is nothing to read (now)
-    uint32_t (*length)(int handle);   // LOF(): a file's size; a port: bytes that can be sent at once
+    bool (*at_end)(int handle);     // EOF(): there is nothing to read (now)
+    uint32_t (*length)(int handle); // LOF(): a file's size; a port: bytes that can be sent at once
     uint32_t (*position)(int handle); // LOC(): a file's next byte, from 1; a port: bytes received
 
     // SEEK, `position` from 1. NULL: a stream. Whoever reads a line from a stream waits for it.

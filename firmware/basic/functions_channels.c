@@ -28,6 +28,5 @@ FUNCTION(input) {
         errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
     }
     char *text = memory_text((size_t)size);
-    value_set_text(result, text,
-                   channels_read((unsigned)arguments[1].integer, text, (size_t)size));
+    value_set_text(result, text, channels_read((unsigned)arguments[1].integer, text, (size_t)size));
 }
