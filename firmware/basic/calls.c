@@ -167,6 +167,15 @@ void calls_leave(void) {
     }
 }
 
+const symbols_routine_t *calls_routine(void) {
+    for (unsigned i = vm.depth; i-- > 0;) {
+        if (vm.frames[i].routine != NULL) {
+            return vm.frames[i].routine;
+        }
+    }
+    return NULL;
+}
+
 void calls_gosub(const uint8_t *return_pc) {
     vm_frame_t *frame = push_frame();
     *frame = (vm_frame_t){.return_pc = return_pc};

@@ -17,6 +17,9 @@ bool calls_have_room(const symbols_routine_t *routine);
 // Leaves the routine; a FUNCTION's value is on the stack then.
 void calls_leave(void);
 
+// The routine that runs; NULL: none.
+const symbols_routine_t *calls_routine(void);
+
 // GOSUB and RETURN. calls_return() gives the place to go on at.
 void calls_gosub(const uint8_t *return_pc);
 const uint8_t *calls_return(void);

@@ -31,6 +31,7 @@ typedef enum {
     OP_REF,  // v: a reference to the variable
     OP_REF_ELEMENT, // v n
     OP_REF_ARRAY,   // v
+    OP_KNOWN,       // v: 1 if the variable exists, otherwise 0
     OP_CHECK_TYPE,  // v n: the variable, if it exists, must have this type
     OP_ADD,         // the two-operand instructions, in the order of arith_binary()
     OP_SUBTRACT,

@@ -309,7 +309,9 @@ static void declare_routine(void) {
     symbols_routine_t *routine = symbols_memory(sizeof *routine); // first: a name never lacks it
     routine->is_function = is_function;
     routine->type = lexer_suffix_type(name->suffix);
-    symbols_get(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name))->routine = routine;
+    symbols_t *symbol = symbols_get(SYMBOLS_ROUTINE, 0, name->text, lexer_bare_length(name));
+    symbol->routine = routine;
+    routine->symbol = memory_handle(symbol);
 }
 
 // A line that cannot even be cut into words is reported when it is compiled.
@@ -322,7 +324,7 @@ const uint8_t *compiler_program(const char *text, size_t length) {
     symbols_clear();
     symbols_set_program_mode(true);
     emit_start_program();
-    names_start();
+    names_start(text);
     blocks_start();
     names_set_default_type(VALUE_FLOAT);
     uint32_t start = emit_here();
@@ -342,7 +344,7 @@ const uint8_t *compiler_line(const char *text, size_t length) {
     compiler.line = 0;
     uint8_t *code = (uint8_t *)memory_text(LINE_CODE_SIZE);
     emit_start_line(code, LINE_CODE_SIZE);
-    names_start();
+    names_start_loose(NULL);
     blocks_start();
     names_set_default_type(vm.default_type);
     lexer_start(text, text + length);

@@ -1,4 +1,4 @@
-// DIM and LOCAL: [type] name[(sizes)] [AS type] [LENGTH n] [= values], ... Context: main loop, while
+// DIM, LOCAL, STATIC: [type] name[(sizes)] [AS type] [LENGTH n] [= values], ... Context: main loop, while
 // compiling.
 #include "declare.h"
 
@@ -56,16 +56,11 @@ static void compile_values(uint16_t variable, bool is_array) {
     lexer_expect(')');
 }
 
-// What ACTIONS_DIM gets: the sizes, the type, the length, the variable.
-static void compile_one(bool local, uint8_t list_type) {
-    lexer_token_t name = *lexer_now();
-    if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length) ||
-        words_find(WORDS_FUNCTION, name.text, name.length) != WORDS_NONE) {
-        errors_fail(ERR_SYNTAX);
-    }
-    uint8_t type = agreed(lexer_suffix_type(name.suffix), list_type, &name);
-    lexer_next();
+// The sizes, the type and the length, as ACTIONS_DIM gets them. Returns how many sizes there are.
+static unsigned compile_shape(const lexer_token_t *name, uint8_t list_type, uint8_t *said,
+                              uint8_t *type) {
     unsigned dimensions = 0;
+    *said = agreed(lexer_suffix_type(name->suffix), list_type, name);
     if (lexer_is('(')) {
         dimensions = expressions_compile_subscripts();
         if (dimensions > VARIABLES_DIMENSIONS_MAX) {
@@ -73,29 +68,53 @@ static void compile_one(bool local, uint8_t list_type) {
         }
     }
     if (lexer_take_word("AS")) {
-        type = agreed(type, declare_type_at_hand(), &name);
+        *said = agreed(*said, declare_type_at_hand(), name);
     }
-    uint8_t stated = type != VALUE_NONE ? type : names_default_type();
-    if (stated == VALUE_NONE) {
+    *type = *said != VALUE_NONE ? *said : names_default_type();
+    if (*type == VALUE_NONE) {
         errors_fail(ERR_NO_TYPE);
     }
-    emit_integer(stated);
+    emit_integer(*type);
     if (lexer_take_word("LENGTH")) {
-        expressions_compile();
+        expressions_compile_before_equals();
     } else {
         emit_integer(VALUE_STRING_MAX);
     }
-    uint16_t variable = local ? names_local(&name, stated) : names_global(&name, type);
+    return dimensions;
+}
+
+static void compile_one(declare_kind_t kind, uint8_t list_type) {
+    lexer_token_t name = *lexer_now();
+    if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length) ||
+        words_find(WORDS_FUNCTION, name.text, name.length) != WORDS_NONE) {
+        errors_fail(ERR_SYNTAX);
+    }
+    lexer_next();
+    uint16_t variable = 0;
+    uint32_t known = 0;
+    if (kind == DECLARE_STATIC) { // the second time there is nothing to do
+        variable = names_static(&name);
+        emit_variable(OP_KNOWN, variable);
+        emit_jump(OP_JUMP_TRUE, &known);
+    }
+    uint8_t said, type;
+    unsigned dimensions = compile_shape(&name, list_type, &said, &type);
+    if (kind == DECLARE_STATIC) {
+        names_set_static_type(variable, type);
+    } else {
+        variable = kind == DECLARE_LOCAL ? names_local(&name, type) : names_global(&name, said);
+    }
     emit_integer(variable);
     emit_action(ACTIONS_DIM, dimensions + 3);
     if (lexer_take('=')) {
         compile_values(variable, dimensions != 0);
     }
+    emit_patch(&known);
 }
 
-void declare_compile(bool local) {
+void declare_compile(declare_kind_t kind) {
     uint8_t list_type = take_type();
     do {
-        compile_one(local, list_type);
+        compile_one(kind, list_type);
     } while (lexer_take(','));
 }

@@ -283,6 +283,10 @@ void expressions_compile(void) {
     compile_at(0);
 }
 
+void expressions_compile_before_equals(void) {
+    compile_at(3);
+}
+
 void expressions_compile_argument(void) {
     if (lexer_now()->kind == LEXER_NAME) { // name() is a whole array
         const char *start = lexer_now()->text;

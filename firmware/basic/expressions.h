@@ -9,6 +9,9 @@
 // An expression from the token at hand on. Errors: syntax, too complex.
 void expressions_compile(void);
 
+// The same, but an = behind it does not belong to it.
+void expressions_compile_before_equals(void);
+
 // An argument of a SUB or FUNCTION: a variable alone is passed by reference.
 void expressions_compile_argument(void);
 

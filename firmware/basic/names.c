@@ -16,15 +16,28 @@ typedef struct {
     uint8_t type; // VALUE_NONE: the default type
 } local_t;
 
+// Where a local's name stands: its length above its offset into the source.
+#define PACKED_LENGTH_SHIFT 24
+#define PACKED_OFFSET_MASK 0xFFFFFFu
+
 static struct {
     symbols_t *symbol; // of the routine; NULL outside
+    const char *source;
+    bool loose; // the routine is running: its locals are fixed
     local_t locals[LOCALS_MAX];
     unsigned local_count; // places in use; [0] is the routine's value
     uint8_t default_type;
 } names;
 
-void names_start(void) {
+void names_start(const char *source) {
     names.symbol = NULL;
+    names.source = source;
+    names.loose = false;
+}
+
+void names_start_loose(const symbols_routine_t *routine) {
+    names.symbol = routine != NULL ? memory_place(routine->symbol) : NULL;
+    names.loose = true;
 }
 
 void names_begin_routine(symbols_t *symbol) {
@@ -35,9 +48,35 @@ void names_begin_routine(symbols_t *symbol) {
                                 symbol->routine->type};
 }
 
+// Keeps where the names are: an error shows them, and EXECUTE finds the locals by them.
+static void pack_locals(symbols_routine_t *routine) {
+    uint32_t *packed = symbols_memory(names.local_count * sizeof *packed);
+    for (unsigned i = 1; i < names.local_count; i++) { // [0] has the routine's name
+        const local_t *local = &names.locals[i];
+        if (local->length != 0) {
+            packed[i] = (uint32_t)local->length << PACKED_LENGTH_SHIFT |
+                        ((uint32_t)(local->text - names.source) & PACKED_OFFSET_MASK);
+        }
+    }
+    routine->names = packed;
+}
+
 void names_end_routine(void) {
-    names.symbol->routine->locals = (uint8_t)names.local_count;
+    symbols_routine_t *routine = names.symbol->routine;
+    routine->locals = (uint8_t)names.local_count;
     names.symbol = NULL;
+    pack_locals(routine);
+}
+
+const char *names_of_local(const symbols_routine_t *routine, unsigned index, size_t *length) {
+    if (index == 0) {
+        const symbols_t *symbol = memory_place(routine->symbol);
+        *length = routine->is_function ? symbol->length : 0;
+        return symbol->name;
+    }
+    uint32_t packed = index < routine->locals && routine->names != NULL ? routine->names[index] : 0;
+    *length = packed >> PACKED_LENGTH_SHIFT;
+    return names.source + (packed & PACKED_OFFSET_MASK);
 }
 
 void names_set_result_type(uint8_t type) {
@@ -64,28 +103,43 @@ uint8_t names_default_type(void) {
     return names.default_type;
 }
 
-static bool same_name(const local_t *local, const char *text, size_t length) {
-    if (local->length != length) {
+static char upper(char c) {
+    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
+}
+
+static bool same_name(const char *one, size_t one_length, const char *other, size_t length) {
+    if (one_length != length) {
         return false;
     }
     for (size_t i = 0; i < length; i++) {
-        char a = local->text[i];
-        char b = text[i];
-        a = a >= 'a' && a <= 'z' ? (char)(a - 0x20) : a;
-        b = b >= 'a' && b <= 'z' ? (char)(b - 0x20) : b;
-        if (a != b) {
+        if (upper(one[i]) != upper(other[i])) {
             return false;
         }
     }
     return true;
 }
 
+static int find_running_local(const char *text, size_t length) {
+    const symbols_routine_t *routine = names.symbol->routine;
+    for (unsigned i = 0; i < routine->locals; i++) {
+        size_t known_length;
+        const char *known = names_of_local(routine, i, &known_length);
+        if (same_name(known, known_length, text, length)) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
 static int find_local(const char *text, size_t length) {
     if (names.symbol == NULL || length == 0) {
         return -1;
     }
+    if (names.loose) {
+        return find_running_local(text, length);
+    }
     for (unsigned i = 0; i < names.local_count; i++) {
-        if (same_name(&names.locals[i], text, length)) {
+        if (same_name(names.locals[i].text, names.locals[i].length, text, length)) {
             return (int)i;
         }
     }
@@ -95,7 +149,7 @@ static int find_local(const char *text, size_t length) {
 static _Noreturn void fail_different(const char *text, size_t length) {
     char name[SYMBOLS_NAME_MAX + 1] = "";
     for (size_t i = 0; i < length && i < SYMBOLS_NAME_MAX; i++) {
-        name[i] = text[i] >= 'a' && text[i] <= 'z' ? (char)(text[i] - 0x20) : text[i];
+        name[i] = upper(text[i]);
     }
     errors_fail_with(ERR_DIFFERENT_TYPE, "%s", name);
 }
@@ -115,22 +169,50 @@ static uint8_t settle(symbols_t *symbol, uint8_t type, bool is_new) {
     return type;
 }
 
+// A FUNCTION is no variable: without parentheses its name would read as 0 for ever.
+static void refuse_other_names(const char *text, size_t length) {
+    const symbols_t *routine = symbols_find(SYMBOLS_ROUTINE, 0, text, length);
+    if (routine != NULL && routine->routine->is_function) {
+        errors_fail_with(ERR_FUNCTION_CALL, "%s", routine->name);
+    }
+    if (length > 3 && same_name(text, 3, "MM.", 3)) {
+        errors_fail_with(ERR_NO_FUNCTION, "%.*s", (int)length, text);
+    }
+}
+
+// The program's variable, or the routine's STATIC.
+static symbols_t *find_symbol(const char *text, size_t length, bool *is_new) {
+    *is_new = false;
+    if (names.symbol != NULL) {
+        symbols_t *own = symbols_find(SYMBOLS_VARIABLE, names_scope(), text, length);
+        if (own != NULL) {
+            return own;
+        }
+    }
+    symbols_t *symbol = symbols_find(SYMBOLS_VARIABLE, 0, text, length);
+    if (symbol == NULL) {
+        refuse_other_names(text, length);
+        *is_new = true;
+        symbol = symbols_get(SYMBOLS_VARIABLE, 0, text, length);
+    }
+    return symbol;
+}
+
 uint16_t names_variable(const lexer_token_t *name, uint8_t *check_type) {
     size_t length = lexer_bare_length(name);
     uint8_t type = lexer_suffix_type(name->suffix);
     *check_type = VALUE_NONE;
     int local = find_local(name->text, length);
     if (local >= 0) {
-        if (type != VALUE_NONE && names.locals[local].type != type) {
+        if (names.loose) {
+            *check_type = type;
+        } else if (type != VALUE_NONE && names.locals[local].type != type) {
             fail_different(name->text, length);
         }
         return (uint16_t)(CODE_LOCAL_FLAG | (unsigned)local);
     }
-    symbols_t *symbol = symbols_find(SYMBOLS_VARIABLE, 0, name->text, length);
-    bool is_new = symbol == NULL;
-    if (is_new) {
-        symbol = symbols_get(SYMBOLS_VARIABLE, 0, name->text, length);
-    }
+    bool is_new;
+    symbols_t *symbol = find_symbol(name->text, length, &is_new);
     *check_type = settle(symbol, type, is_new);
     return memory_handle(symbol);
 }
@@ -138,6 +220,9 @@ uint16_t names_variable(const lexer_token_t *name, uint8_t *check_type) {
 uint16_t names_global(const lexer_token_t *name, uint8_t type) {
     size_t length = lexer_bare_length(name);
     bool is_new = symbols_find(SYMBOLS_VARIABLE, 0, name->text, length) == NULL;
+    if (is_new) {
+        refuse_other_names(name->text, length);
+    }
     symbols_t *symbol = symbols_get(SYMBOLS_VARIABLE, 0, name->text, length);
     settle(symbol, type, is_new);
     return memory_handle(symbol);
@@ -154,24 +239,45 @@ static uint16_t new_places(unsigned count) {
     return (uint16_t)(CODE_LOCAL_FLAG | first);
 }
 
-uint16_t names_local(const lexer_token_t *name, uint8_t type) {
-    if (names.symbol == NULL) {
+// Errors unless the routine can have a name of its own here.
+static size_t check_new_name(const lexer_token_t *name) {
+    size_t length = lexer_bare_length(name);
+    if (names.symbol == NULL || names.loose) {
         errors_fail(ERR_INVALID_HERE);
     }
-    size_t length = lexer_bare_length(name);
     if (length > SYMBOLS_NAME_MAX) {
         errors_fail(ERR_NAME_TOO_LONG);
     }
-    if (find_local(name->text, length) >= 0) {
-        errors_fail_with(ERR_ALREADY_DECLARED, "%.*s", (int)length, name->text);
+    if (find_local(name->text, length) >= 0 ||
+        symbols_find(SYMBOLS_VARIABLE, names_scope(), name->text, length) != NULL) {
+        char known[SYMBOLS_NAME_MAX + 1] = "";
+        for (size_t i = 0; i < length; i++) {
+            known[i] = upper(name->text[i]);
+        }
+        errors_fail_with(ERR_ALREADY_DECLARED, "%s", known);
     }
+    return length;
+}
+
+uint16_t names_local(const lexer_token_t *name, uint8_t type) {
+    size_t length = check_new_name(name);
     uint16_t variable = new_places(1);
     names.locals[variable & ~CODE_LOCAL_FLAG] = (local_t){name->text, (uint8_t)length, type};
     return variable;
 }
 
+uint16_t names_static(const lexer_token_t *name) {
+    size_t length = check_new_name(name);
+    return memory_handle(symbols_get(SYMBOLS_VARIABLE, names_scope(), name->text, length));
+}
+
+void names_set_static_type(uint16_t variable, uint8_t type) {
+    symbols_t *symbol = memory_place(variable);
+    symbol->type = type;
+}
+
 uint16_t names_hidden(unsigned count) {
-    if (names.symbol != NULL) {
+    if (names.symbol != NULL && !names.loose) {
         return new_places(count);
     }
     value_t *places = memory_scratch(count * sizeof(value_t)); // lives as long as the code

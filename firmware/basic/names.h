@@ -9,8 +9,12 @@
 #include "lexer.h"
 #include "symbols.h"
 
-// Outside any routine from here on.
-void names_start(void);
+// A program whose text is `source`; outside any routine.
+void names_start(const char *source);
+
+// Text that is compiled while `routine` runs (NULL: outside any), for EXECUTE and the prompt: its
+// locals are those it has, and hidden variables live no longer than the code.
+void names_start_loose(const symbols_routine_t *routine);
 
 // Between SUB or FUNCTION and its end. `handle` is the routine's symbol.
 void names_begin_routine(symbols_t *symbol);
@@ -37,6 +41,13 @@ uint16_t names_global(const lexer_token_t *name, uint8_t type);
 
 // A new local of the routine. Errors: not in a routine, declared twice, too many.
 uint16_t names_local(const lexer_token_t *name, uint8_t type);
+
+// A variable of the routine that outlives its calls. Errors as for names_local().
+uint16_t names_static(const lexer_token_t *name);
+void names_set_static_type(uint16_t variable, uint8_t type);
+
+// The name of place `index` of a routine's locals as in the source; "" for a hidden one.
+const char *names_of_local(const symbols_routine_t *routine, unsigned index, size_t *length);
 
 // `count` variables without a name, side by side.
 uint16_t names_hidden(unsigned count);

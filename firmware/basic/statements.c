@@ -75,6 +75,8 @@ const statements_row_t statements_table[] = {
     {"SETTICK", statements_settick,
      "SETTICK milliseconds, sub [, 1..4] / PAUSE|RESUME [, sub] [, 1..4]",
      "Calls a SUB again and again; 0, 0: no more"},
+    {"STATIC", statements_static, "STATIC [type] name[(size, ...)] [= value] [, ...]",
+     "As LOCAL, but keeps its value from call to call"},
     {"SUB", statements_sub, "SUB name [parameters] ... END SUB", "Defines a command"},
     {"TIMER", statements_timer, "TIMER = milliseconds", "Sets the clock that TIMER reads"},
     {"WEND", statements_wend, NULL, NULL},
@@ -169,6 +171,12 @@ static void compile_sub_call(symbols_t *symbol) {
     emit_byte(count);
 }
 
+static bool exists(const lexer_token_t *name) {
+    const symbols_t *symbol =
+        symbols_find(SYMBOLS_VARIABLE, 0, name->text, lexer_bare_length(name));
+    return symbol != NULL && symbol->value.type != VALUE_NONE;
+}
+
 // True if the line can only be meant as an expression: it opens with a value, or a name that exists.
 static bool is_expression(void) {
     const lexer_token_t *token = lexer_now();
@@ -180,8 +188,7 @@ static bool is_expression(void) {
     return lexer_is_word("NOT") || lexer_is_word("INV") ||
            words_find(WORDS_FUNCTION, token->text, token->length) != WORDS_NONE ||
            words_find(WORDS_HOST_FUNCTION, token->text, token->length) != WORDS_NONE ||
-           symbols_find(SYMBOLS_VARIABLE, 0, token->text, length) != NULL ||
-           symbols_find(SYMBOLS_ROUTINE, 0, token->text, length) != NULL;
+           exists(token) || symbols_find(SYMBOLS_ROUTINE, 0, token->text, length) != NULL;
 }
 
 bool statements_compile_other(void) {

@@ -11,7 +11,7 @@
 #include "words.h"
 
 void statements_dim(void) {
-    declare_compile(false);
+    declare_compile(DECLARE_DIM);
 }
 
 void statements_const(void) {

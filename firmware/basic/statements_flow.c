@@ -108,13 +108,7 @@ void statements_for(void) {
         words_is_reserved(lexer_now()->text, lexer_now()->length)) {
         errors_fail(ERR_SYNTAX);
     }
-    uint8_t check_type;
-    uint16_t variable = names_variable(lexer_now(), &check_type);
-    if (check_type != VALUE_NONE) {
-        emit_variable(OP_CHECK_TYPE, variable);
-        emit_byte(check_type);
-    }
-    lexer_next();
+    uint16_t variable = expressions_compile_name();
     lexer_expect('=');
     expressions_compile();
     emit_variable(OP_STORE, variable);

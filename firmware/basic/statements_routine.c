@@ -1,4 +1,4 @@
-// SUB, FUNCTION and LOCAL. Context: main loop, while compiling.
+// SUB, FUNCTION, LOCAL and STATIC. Context: main loop, while compiling.
 #include "blocks.h"
 #include "compiler.h"
 #include "declare.h"
@@ -134,5 +134,12 @@ void statements_local(void) {
     if (names_routine() == NULL) {
         errors_fail(ERR_INVALID_HERE);
     }
-    declare_compile(true);
+    declare_compile(DECLARE_LOCAL);
+}
+
+void statements_static(void) {
+    if (names_routine() == NULL) {
+        errors_fail(ERR_INVALID_HERE);
+    }
+    declare_compile(DECLARE_STATIC);
 }

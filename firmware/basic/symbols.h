@@ -23,6 +23,8 @@ typedef struct {
     uint8_t parameters;
     uint8_t locals; // places on the stack: the value, the parameters, LOCALs, loops
     uint8_t parameter_types[SYMBOLS_PARAMETERS_MAX]; // with SYMBOLS_ARRAY_FLAG
+    uint16_t symbol;                                 // handle of its name
+    const uint32_t *names; // of the locals, as names.c packs them; NULL until its end is compiled
 } symbols_routine_t;
 
 // Where a label stands and the places in code that wait to be told, chained through their operands.
@@ -39,7 +41,7 @@ typedef struct {
         symbols_label_t label;
     };
     uint16_t next;  // handle of the next one in the bucket, 0 at the end
-    uint16_t scope; // a label in a SUB: handle of the SUB
+    uint16_t scope; // a label or a STATIC in a SUB: handle of the SUB
     uint8_t kind;
     uint8_t type; // the type its suffix or DIM gave it while compiling; VALUE_NONE: not said
     uint8_t length;

@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "calls.h"
 #include "errors.h"
+#include "names.h"
 #include "symbols.h"
 
 #define UPPER_MAX 131067 // highest bound of an array's dimension; memory ends long before
@@ -13,8 +15,15 @@ static bool is_local(uint16_t variable) {
 }
 
 const char *variables_name(uint16_t variable) {
+    static char name[SYMBOLS_NAME_MAX + 1];
     if (is_local(variable)) {
-        return "Variable"; // names of locals are gone with the compilation
+        size_t length;
+        const char *text = names_of_local(calls_routine(), variable & ~CODE_LOCAL_FLAG, &length);
+        for (size_t i = 0; i < length; i++) {
+            name[i] = text[i] >= 'a' && text[i] <= 'z' ? (char)(text[i] - 0x20) : text[i];
+        }
+        name[length] = '\0';
+        return name;
     }
     const symbols_t *symbol = memory_place(variable);
     return symbol->name;

@@ -314,6 +314,12 @@ static void loop(void) {
             variables_reference(code_u16(pc), op == OP_REF_ARRAY, PUSHED());
             pc += 2;
             break;
+        case OP_KNOWN: {
+            value_t *value = PUSHED();
+            value_set_integer(value, variables_slot(code_u16(pc))->type != VALUE_NONE);
+            pc += 2;
+            break;
+        }
         case OP_CHECK_TYPE:
             variables_check_type(code_u16(pc), pc[2]);
             pc += 3;
