@@ -7,32 +7,39 @@
 #include "compiler.h"
 #include "emit.h"
 #include "errors.h"
+#include "memory.h"
 
-#define BLOCKS_MAX 32
+#define BLOCKS_MAX 100
 
-typedef struct {
-    blocks_t open[BLOCKS_MAX];
+// While something is compiled the stack of values is free from some place on: the blocks lie there.
+static struct {
+    blocks_t *open;
+    blocks_t *saved;
+    unsigned max;
     unsigned count;
-} block_stack_t;
-
-static block_stack_t blocks, saved;
+    unsigned saved_count;
+} blocks;
 
 void blocks_save(void) {
-    saved.count = blocks.count;
-    memcpy(saved.open, blocks.open, blocks.count * sizeof blocks.open[0]);
+    blocks.saved_count = blocks.count;
+    memcpy(blocks.saved, blocks.open, blocks.count * sizeof blocks.open[0]);
 }
 
 void blocks_restore(void) {
-    blocks.count = saved.count;
-    memcpy(blocks.open, saved.open, saved.count * sizeof saved.open[0]);
+    blocks.count = blocks.saved_count;
+    memcpy(blocks.open, blocks.saved, blocks.saved_count * sizeof blocks.open[0]);
 }
 
-void blocks_start(void) {
+void blocks_start(value_t *room) {
+    size_t fitting = (size_t)(memory.values_limit - room) * sizeof *room / sizeof(blocks_t) / 2;
+    blocks.max = fitting < BLOCKS_MAX ? (unsigned)fitting : BLOCKS_MAX;
+    blocks.open = (blocks_t *)(void *)room;
+    blocks.saved = blocks.open + blocks.max;
     blocks.count = 0;
 }
 
 blocks_t *blocks_open(blocks_kind_t kind) {
-    if (blocks.count == BLOCKS_MAX) {
+    if (blocks.count == blocks.max) {
         errors_fail_with(ERR_NESTED_TOO_DEEP, "blocks");
     }
     blocks_t *block = &blocks.open[blocks.count++];

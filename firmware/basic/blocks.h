@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "value.h"
+
 typedef enum { BLOCKS_FOR, BLOCKS_DO, BLOCKS_IF, BLOCKS_SELECT, BLOCKS_ROUTINE } blocks_kind_t;
 
 typedef struct {
@@ -19,8 +21,8 @@ typedef struct {
     bool seen_else;
 } blocks_t;
 
-// No blocks are open.
-void blocks_start(void);
+// No blocks are open. They are kept from `room` on, where the stack of values is free.
+void blocks_start(value_t *room);
 
 // Opens a block. Error: nested too deep.
 blocks_t *blocks_open(blocks_kind_t kind);

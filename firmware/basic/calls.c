@@ -13,7 +13,9 @@
 #define STACK_MARGIN 8  // places an expression in the routine has at least
 #define FRAMES_MARGIN 8 // calls that the SUB of an event may nest
 
-static vm_frame_t *push_frame(void) {
+const symbols_routine_t calls_execute, calls_eval;
+
+vm_frame_t *calls_new_frame(void) {
     if (vm.depth >= VM_FRAMES_MAX) {
         errors_fail_with(ERR_NESTED_TOO_DEEP, "calls");
     }
@@ -78,8 +80,7 @@ static void bind(value_t *argument, uint8_t type, unsigned number) {
     argument->flags = 0;
 }
 
-// Strings that wait on the stack may lie in variables that the routine is about to change.
-static void save_waiting_texts(value_t *from, const value_t *end) {
+void calls_save_texts(value_t *from, const value_t *end) {
     for (value_t *value = from; value < end; value++) {
         const uint8_t *text = (const uint8_t *)value->text;
         bool temporary = text >= memory.scratch && text < vm.scratch_base;
@@ -92,7 +93,7 @@ static void save_waiting_texts(value_t *from, const value_t *end) {
 }
 
 void calls_enter(const symbols_routine_t *routine, unsigned count) {
-    vm_frame_t *frame = push_frame();
+    vm_frame_t *frame = calls_new_frame();
     value_t *locals = vm.sp - count - 1;
     if (routine->code == 0) { // its first line did not compile
         errors_fail(ERR_NO_USER_SUB);
@@ -103,7 +104,7 @@ void calls_enter(const symbols_routine_t *routine, unsigned count) {
     if (locals + routine->locals + STACK_MARGIN > memory.values_limit) {
         errors_fail(ERR_NO_MEMORY);
     }
-    save_waiting_texts(vm.operands, locals);
+    calls_save_texts(vm.operands, locals);
     uint8_t *scratch = memory.scratch;
     for (unsigned i = 0; i < routine->parameters; i++) {
         value_t *argument = &locals[1 + i];
@@ -136,9 +137,13 @@ bool calls_have_room(const symbols_routine_t *routine) {
     return vm.depth + FRAMES_MARGIN <= VM_FRAMES_MAX && top <= memory.values_limit;
 }
 
+static bool is_routine(const symbols_routine_t *routine) {
+    return routine != NULL && routine != &calls_execute && routine != &calls_eval;
+}
+
 void calls_leave(void) {
-    while (vm.depth > 0 && vm.frames[vm.depth - 1].routine == NULL) {
-        vm.depth--; // GOSUBs the routine did not return from
+    while (vm.depth > 0 && !is_routine(vm.frames[vm.depth - 1].routine)) {
+        vm.depth--; // GOSUBs the routine did not return from, EXECUTEs that say EXIT SUB
     }
     if (vm.depth == 0) {
         errors_fail(ERR_NO_RETURN);
@@ -169,7 +174,7 @@ void calls_leave(void) {
 
 const symbols_routine_t *calls_routine(void) {
     for (unsigned i = vm.depth; i-- > 0;) {
-        if (vm.frames[i].routine != NULL) {
+        if (is_routine(vm.frames[i].routine)) {
             return vm.frames[i].routine;
         }
     }
@@ -177,7 +182,7 @@ const symbols_routine_t *calls_routine(void) {
 }
 
 void calls_gosub(const uint8_t *return_pc) {
-    vm_frame_t *frame = push_frame();
+    vm_frame_t *frame = calls_new_frame();
     *frame = (vm_frame_t){.return_pc = return_pc};
     vm.depth++;
 }

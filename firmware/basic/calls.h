@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "symbols.h"
+#include "vm.h"
 
 // Enters a routine with `count` arguments on the stack, above the place for its value; vm.pc is
 // where to come back to. Errors: argument list, wrong type, nested too deep.
@@ -16,6 +17,15 @@ bool calls_have_room(const symbols_routine_t *routine);
 
 // Leaves the routine; a FUNCTION's value is on the stack then.
 void calls_leave(void);
+
+// Marks of frames that are no routine's: text that runs by EXECUTE or EVAL (indirect.c).
+extern const symbols_routine_t calls_execute, calls_eval;
+
+// The next frame, for one who fills it and counts vm.depth up. Error: nested too deep.
+vm_frame_t *calls_new_frame(void);
+
+// Copies strings that wait on the stack, where code that is about to run could change them.
+void calls_save_texts(value_t *from, const value_t *end);
 
 // The routine that runs; NULL: none.
 const symbols_routine_t *calls_routine(void);

@@ -64,6 +64,7 @@ typedef enum {
     OP_NEXT,          // v, v hidden pair, p the loop's body
     OP_CALL,          // w routine, n arguments on the stack above a blank
     OP_LEAVE,         // end of a SUB or FUNCTION
+    OP_INDIRECT,      // n kind (indirect.h), n arguments
     OP_FUNCTION,      // n row of functions.c, n arguments
     OP_HOST_FUNCTION, // n row of the configuration, n arguments
     OP_COMMAND,       // n row of the configuration, n arguments

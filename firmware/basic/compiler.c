@@ -5,6 +5,7 @@
 
 #include "args.h"
 #include "blocks.h"
+#include "calls.h"
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
@@ -18,8 +19,11 @@
 #include "words.h"
 
 #define LINE_MAX 255
-#define STATEMENT_SIZE 5    // OP_STATEMENT with its operands
-#define LINE_CODE_SIZE 2560 // a line of 255 characters; longer code is "too complex"
+#define STATEMENT_SIZE 5 // OP_STATEMENT with its operands
+#define CODE_PER_CHARACTER 10
+#define CODE_AT_LEAST 96
+// A line of 255 characters; longer code is "too complex".
+#define LINE_CODE_SIZE (LINE_MAX * CODE_PER_CHARACTER)
 #define LINE_NUMBER_DIGITS 5
 
 static struct {
@@ -28,10 +32,15 @@ static struct {
     uint32_t last_data; // operand of the last DATA, to be told where the next one is
     uint32_t first_data;
     bool in_comment; // between /* and */
+    bool loose;
 } compiler;
 
 bool compiler_at_prompt(void) {
     return compiler.line == 0;
+}
+
+bool compiler_is_loose(void) {
+    return compiler.loose;
 }
 
 uint32_t compiler_statement_start(void) {
@@ -320,12 +329,12 @@ static void declare_routine_of_line(void) {
 }
 
 const uint8_t *compiler_program(const char *text, size_t length) {
-    memset(&compiler, 0, sizeof compiler);
+    memset(&compiler, 0, sizeof compiler); // .loose as well
     symbols_clear();
     symbols_set_program_mode(true);
     emit_start_program();
     names_start(text);
-    blocks_start();
+    blocks_start(memory.values);
     names_set_default_type(VALUE_FLOAT);
     uint32_t start = emit_here();
     each_line(text, length, declare_routine_of_line);
@@ -340,24 +349,21 @@ const uint8_t *compiler_program(const char *text, size_t length) {
     return memory.base + start;
 }
 
-const uint8_t *compiler_line(const char *text, size_t length) {
-    compiler.line = 0;
-    uint8_t *code = (uint8_t *)memory_text(LINE_CODE_SIZE);
-    emit_start_line(code, LINE_CODE_SIZE);
-    names_start_loose(NULL);
-    blocks_start();
+// ---- Lines from the prompt, text that a program makes ---------------------------------------------
+
+// Code goes to the scratch. `stack` is where the stack of values is free.
+static uint8_t *start_loose(const char *text, size_t length, size_t code_size, value_t *stack) {
+    compiler.loose = true;
+    uint8_t *code = (uint8_t *)memory_text(code_size);
+    emit_start_line(code, code_size);
+    blocks_start(stack);
     names_set_default_type(vm.default_type);
+    expressions_start();
     lexer_start(text, text + length);
-    const char *behind = lexer_now()->behind;
-    if (lexer_now()->kind == LEXER_NUMBER && lexer_now()->value.type == VALUE_INTEGER) {
-        lexer_next(); // a line number is no program here: only what follows counts
-        bool operator_follows = lexer_is_word("MOD") || lexer_is_word("AND") ||
-                                lexer_is_word("OR") || lexer_is_word("XOR");
-        if (lexer_now()->kind != LEXER_NAME || operator_follows) {
-            behind = text;
-        }
-        lexer_go(behind);
-    }
+    return code;
+}
+
+static void compile_loose_statements(void) {
     while (lexer_now()->kind != LEXER_END) {
         if (!lexer_take(':')) {
             compile_one();
@@ -368,6 +374,41 @@ const uint8_t *compiler_line(const char *text, size_t length) {
         errors_fail(ERR_NO_END_SUB);
     }
     emit_commit();
+}
+
+const uint8_t *compiler_line(const char *text, size_t length) {
+    compiler.line = 0;
+    names_start_loose(NULL);
+    const uint8_t *code = start_loose(text, length, LINE_CODE_SIZE, memory.values);
+    const char *behind = lexer_now()->behind;
+    if (lexer_now()->kind == LEXER_NUMBER && lexer_now()->value.type == VALUE_INTEGER) {
+        lexer_next(); // a line number is no program here: only what follows counts
+        bool operator_follows = lexer_is_word("MOD") || lexer_is_word("AND") ||
+                                lexer_is_word("OR") || lexer_is_word("XOR");
+        if (lexer_now()->kind != LEXER_NAME || operator_follows) {
+            behind = text;
+        }
+        lexer_go(behind);
+    }
+    compile_loose_statements();
     emit_op(OP_END);
+    return code;
+}
+
+const uint8_t *compiler_text(const char *text, size_t length, indirect_kind_t end) {
+    compiler.line = vm_line();
+    names_start_loose(calls_routine());
+    const uint8_t *code =
+        start_loose(text, length, length * CODE_PER_CHARACTER + CODE_AT_LEAST, vm.sp);
+    if (end == INDIRECT_EVAL_END) {
+        expressions_compile();
+        if (lexer_now()->kind != LEXER_END) {
+            errors_fail(ERR_SYNTAX);
+        }
+        emit_commit();
+    } else {
+        compile_loose_statements();
+    }
+    emit_indirect(end, 0);
     return code;
 }

@@ -8,12 +8,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "indirect.h"
+
 // Compiles a program behind its text, which ends where the heap starts now. All names are new.
 // Returns the code. Ends by an error if the program is too long.
 const uint8_t *compiler_program(const char *text, size_t length);
 
 // Compiles a line typed at the prompt. Ends by an error if the line has one.
 const uint8_t *compiler_line(const char *text, size_t length);
+
+// Compiles statements, or an expression, that a program gives as text while it runs. `end` is the
+// instruction behind the code: INDIRECT_EXECUTE_END or INDIRECT_EVAL_END. Errors: those of the text.
+const uint8_t *compiler_text(const char *text, size_t length, indirect_kind_t end);
 
 // ---- For the statements --------------------------------------------------------------------------
 
@@ -22,6 +28,9 @@ void compiler_statement(void);
 
 // True while a line from the prompt is compiled.
 bool compiler_at_prompt(void);
+
+// True if it is not a program that is compiled: a line from the prompt, or text for EXECUTE and EVAL.
+bool compiler_is_loose(void);
 
 // Where the statement being compiled starts.
 uint32_t compiler_statement_start(void);

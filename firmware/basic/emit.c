@@ -124,6 +124,12 @@ void emit_action(actions_t action, unsigned arguments) {
     emit_byte(arguments);
 }
 
+void emit_indirect(indirect_kind_t kind, unsigned arguments) {
+    emit_op(OP_INDIRECT);
+    emit_byte(kind);
+    emit_byte(arguments);
+}
+
 void emit_jump_to(code_op_t op, uint32_t place) {
     emit_op(op);
     emit_place(place);

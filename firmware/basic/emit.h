@@ -7,6 +7,7 @@
 
 #include "actions.h"
 #include "code.h"
+#include "indirect.h"
 #include "value.h"
 
 // Code goes to the start of the heap until emit_finish() (a program) or to `size` bytes at `buffer`.
@@ -26,6 +27,7 @@ void emit_string(const char *text, size_t length);
 void emit_variable(code_op_t op, uint16_t variable);
 void emit_element(code_op_t op, uint16_t variable, unsigned subscripts);
 void emit_action(actions_t action, unsigned arguments);
+void emit_indirect(indirect_kind_t kind, unsigned arguments);
 void emit_jump_to(code_op_t op, uint32_t place);
 
 // Where the next instruction comes.

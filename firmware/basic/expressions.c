@@ -156,9 +156,29 @@ static void compile_function_argument(char type) {
     expressions_compile();
 }
 
+// CALL(name$, arguments) and EVAL(text$).
+static void compile_indirect(void) {
+    bool is_call = lexer_is_word("CALL");
+    unsigned count = 0;
+    lexer_next();
+    lexer_expect('(');
+    enter();
+    expressions_compile();
+    if (is_call && lexer_take(',')) {
+        count = expressions_compile_arguments(')');
+    }
+    leave();
+    lexer_expect(')');
+    emit_indirect(is_call ? INDIRECT_FUNCTION : INDIRECT_EVAL, count);
+}
+
 static void compile_function(int row) {
     const functions_row_t *function = &functions_table[row];
     unsigned count = 0;
+    if (function->evaluate == NULL) {
+        compile_indirect();
+        return;
+    }
     lexer_next();
     if (function->most > 0 && (function->least > 0 || lexer_is('('))) {
         lexer_expect('(');

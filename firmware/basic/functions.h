@@ -17,8 +17,8 @@ typedef struct {
     const char *types;
     uint8_t least; // arguments
     uint8_t most;
-    functions_evaluate_t evaluate;
-    const char *help; // usage
+    functions_evaluate_t evaluate; // NULL: expressions.c compiles it in a way of its own
+    const char *help;              // usage
 } functions_row_t;
 
 extern const functions_row_t functions_table[];

@@ -11,6 +11,18 @@
 #include "symbols.h"
 #include "words.h"
 
+// Text compiled while the program runs meets labels that have their place already.
+static symbols_t *find_defined(const lexer_token_t *name) {
+    symbols_t *label = symbols_find(SYMBOLS_LABEL, names_scope(), name->text, name->length);
+    if (label == NULL || !label->label.defined) {
+        label = symbols_find(SYMBOLS_LABEL, 0, name->text, name->length);
+    }
+    if (label == NULL || !label->label.defined) {
+        errors_fail(name->kind == LEXER_NUMBER ? ERR_NO_LINE_NUMBER : ERR_NO_LABEL);
+    }
+    return label;
+}
+
 static symbols_t *label_at_hand(void) {
     const lexer_token_t *token = lexer_now();
     bool is_number = token->kind == LEXER_NUMBER && token->value.type == VALUE_INTEGER;
@@ -18,24 +30,26 @@ static symbols_t *label_at_hand(void) {
         (!is_number && words_is_reserved(token->text, token->length))) {
         errors_fail(ERR_SYNTAX);
     }
-    symbols_t *label = symbols_get(SYMBOLS_LABEL, names_scope(), token->text, token->length);
+    symbols_t *label = compiler_is_loose()
+                           ? find_defined(token)
+                           : symbols_get(SYMBOLS_LABEL, names_scope(), token->text, token->length);
     lexer_next();
     return label;
 }
 
-// A label met at the prompt has its place already.
 static void emit_label(symbols_t *label) {
-    if (compiler_at_prompt()) {
-        if (!label->label.defined) {
-            errors_fail(label->name[0] <= '9' ? ERR_NO_LINE_NUMBER : ERR_NO_LABEL);
-        }
+    if (compiler_is_loose()) {
         emit_place(label->label.code);
     } else {
         emit_wait(&label->label.waiting);
     }
 }
 
+// A GOTO out of EXECUTE would leave its frame behind.
 void labels_jump(code_op_t op) {
+    if (op == OP_JUMP && compiler_is_loose() && !compiler_at_prompt()) {
+        errors_fail(ERR_INVALID_HERE);
+    }
     symbols_t *label = label_at_hand();
     emit_op(op);
     emit_label(label);

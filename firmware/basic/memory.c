@@ -53,6 +53,11 @@ static uint8_t *take_heap(size_t size) {
     return place;
 }
 
+bool memory_is_passing(const void *place) {
+    const uint8_t *byte = place;
+    return byte >= memory.scratch && byte < memory.ceiling + MEMORY_PROMPT_RESERVE;
+}
+
 size_t memory_free(void) {
     return (size_t)(memory.scratch - memory.heap);
 }

@@ -9,6 +9,7 @@
 #ifndef BASIC_MEMORY_H
 #define BASIC_MEMORY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -62,6 +63,9 @@ static inline uint16_t memory_handle(const void *place) {
 static inline void *memory_place(uint16_t handle) {
     return memory.base + (size_t)handle * 8;
 }
+
+// True if `place` is in the scratch that is unwound, not among the program's names.
+bool memory_is_passing(const void *place);
 
 // Bytes between heap and scratch.
 size_t memory_free(void);

@@ -16,6 +16,7 @@
 const statements_row_t statements_table[] = {
     {"AUTOSAVE", statements_autosave, "AUTOSAVE",
      "Takes a program pasted or typed, up to Ctrl-Z or F1"},
+    {"CALL", statements_call, "CALL name$ [, argument ...]", "Calls the SUB of that name"},
     {"CASE", statements_case, NULL, NULL},
     {"CLOSE", statements_close, "CLOSE [[#]n [, ...]]", "Closes channels; alone, all of them"},
     {"CONST", statements_const, "CONST name = value [, ...]", "Names a value that cannot change"},
@@ -29,6 +30,7 @@ const statements_row_t statements_table[] = {
     {"END", statements_end, "END", "Ends the program"},
     {"ENDIF", statements_endif, NULL, NULL},
     {"ERROR", statements_error, "ERROR [text$]", "Raises an error"},
+    {"EXECUTE", statements_execute, "EXECUTE text$", "Carries out statements that a string holds"},
     {"EXIT", statements_exit, "EXIT FOR|DO|SUB|FUNCTION", "Leaves a loop or a routine"},
     {"FLUSH", statements_flush, "FLUSH [#]n", "Stores or sends what was written to a channel"},
     {"FOR", statements_for, "FOR name = first TO last [STEP step] ... NEXT [name]", "Counts"},

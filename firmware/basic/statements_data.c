@@ -43,7 +43,7 @@ void statements_inc(void) {
 
 // The items stay text; READ cuts them.
 void statements_data(void) {
-    if (compiler_at_prompt()) {
+    if (compiler_is_loose()) {
         errors_fail(ERR_INVALID_HERE);
     }
     const char *start = lexer_now()->text;

@@ -1,9 +1,10 @@
-// SUB, FUNCTION, LOCAL and STATIC. Context: main loop, while compiling.
+// SUB, FUNCTION, LOCAL, STATIC, CALL and EXECUTE. Context: main loop, while compiling.
 #include "blocks.h"
 #include "compiler.h"
 #include "declare.h"
 #include "emit.h"
 #include "errors.h"
+#include "expressions.h"
 #include "lexer.h"
 #include "memory.h"
 #include "names.h"
@@ -70,8 +71,8 @@ static void compile_type_of_function(symbols_t *symbol) {
 
 static void compile_routine(bool is_function) {
     lexer_token_t name = *lexer_now();
-    if (compiler_at_prompt() || name.kind != LEXER_NAME) {
-        errors_fail(compiler_at_prompt() ? ERR_INVALID_HERE : ERR_SYNTAX);
+    if (compiler_is_loose() || name.kind != LEXER_NAME) {
+        errors_fail(compiler_is_loose() ? ERR_INVALID_HERE : ERR_SYNTAX);
     }
     symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, name.text, lexer_bare_length(&name));
     if (symbol == NULL) { // not at the start of a line, where it would have been declared
@@ -128,6 +129,17 @@ void statements_abandon_routine(void) {
     close_routine(block);
     compiler_end_statement(leave);
     routine->code = compiler_spoil_routine(opening, ERR_NO_END_SUB);
+}
+
+void statements_call(void) {
+    expressions_compile();
+    unsigned count = lexer_take(',') ? expressions_compile_arguments(0) : 0;
+    emit_indirect(INDIRECT_SUB, count);
+}
+
+void statements_execute(void) {
+    expressions_compile();
+    emit_indirect(INDIRECT_EXECUTE, 1);
 }
 
 void statements_local(void) {

@@ -61,8 +61,8 @@ void variables_make_string(uint16_t variable, unsigned capacity) {
 }
 
 void variables_make_hidden_string(uint16_t variable, value_t *place) {
-    bool at_prompt = vm_line() == 0;
-    place->data = allocate_text(is_local(variable) || at_prompt, VALUE_STRING_MAX);
+    bool passing = is_local(variable) || memory_is_passing(place);
+    place->data = allocate_text(passing, VALUE_STRING_MAX);
     place->capacity = VALUE_STRING_MAX;
     place->flags = 0;
     place->type = VALUE_STRING_REF;

@@ -15,6 +15,7 @@
 #include "events.h"
 #include "functions.h"
 #include "hal/hal.h"
+#include "indirect.h"
 #include "variables.h"
 
 // Statements between two looks for input of which the board has said nothing (what was left in its
@@ -384,6 +385,13 @@ static void loop(void) {
             pc = vm.pc;
             sp = vm.sp;
             break;
+        case OP_INDIRECT:
+            vm.pc = pc + 2;
+            vm.sp = sp;
+            indirect_run((indirect_kind_t)pc[0], pc[1]);
+            pc = vm.pc;
+            sp = vm.sp;
+            break;
         case OP_LEAVE:
             calls_leave();
             pc = vm.pc;
@@ -445,6 +453,7 @@ static bool goes_on_after_error(void) {
     if (vm.on_error == VM_ERROR_ABORT) {
         return false;
     }
+    indirect_unwind();
     vm.pc = vm.statement + code_u16(vm.statement + 3);
     return true;
 }

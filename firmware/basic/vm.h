@@ -25,7 +25,7 @@ typedef struct {
     value_t *operands;
     uint8_t *scratch;
     uint8_t *scratch_base;
-    const symbols_routine_t *routine; // NULL: a GOSUB
+    const symbols_routine_t *routine; // NULL: a GOSUB; or a mark of calls.h
 } vm_frame_t;
 
 typedef struct {
