@@ -126,6 +126,8 @@ void channels_background(void) {
         return;
     }
     channels.retry_us = 0;
+    char message[ERR_MESSAGE_SIZE]; // of an error that is just being told
+    strcpy(message, err_message());
     for (unsigned i = 0; i < CHANNELS_MAX; i++) {
         channel_t *channel = &channels.ending[i];
         if (channel->device != NULL) {
@@ -134,6 +136,7 @@ void channels_background(void) {
             channels.retry_us = closed ? channels.retry_us : hal_time_us() + RETRY_US;
         }
     }
+    err_raise(ERR_ARGUMENT, "%s", message);
 }
 
 // ---- Writing -------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #define CTRL_C 3
 #define TAB_WIDTH 8
 #define BLOCKED_RETRY_US 1000u
+#define RAW_GIVE_UP_US 10000000u // a peer that takes nothing has no Ctrl-C to end the wait
 
 // A program that never reads its input would hide Ctrl-C behind a full ring for ever.
 #define UNREAD_LIMIT_US 3000000u
@@ -60,7 +61,7 @@ void console_set_raw(bool raw) {
 }
 
 bool console_is_busy(void) {
-    return console.flushing || console.polling;
+    return console.flushing || console.polling || console.raw;
 }
 
 // A break that came together with the line it is to stop. Behind a further line it is left for then:
@@ -213,8 +214,9 @@ void console_send(void) {
 
 void console_flush(void) {
     unsigned sent = 0;
+    uint64_t give_up_us = console.raw ? hal_time_us() + RAW_GIVE_UP_US : UINT64_MAX;
     console.flushing = true;
-    while (sent < console.output_length && !console.break_pending) {
+    while (sent < console.output_length && !console.break_pending && hal_time_us() < give_up_us) {
         size_t took = hal_console_write(console.output + sent, console.output_length - sent);
         sent += (unsigned)took;
         if (took == 0 || console.running) { // one statement may print for seconds

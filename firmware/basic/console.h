@@ -82,8 +82,8 @@ void console_send(void);
 // the output not sent yet is dropped.
 void console_flush(void);
 
-// True while bytes are being taken in or sent: nothing may be printed that must not be lost, or that
-// belongs between lines.
+// True while bytes are being taken in or sent, or belong to a protocol: nothing may be printed that must
+// not be lost, or that belongs between lines.
 bool console_is_busy(void);
 
 // ---- Waiting -------------------------------------------------------------------------------------

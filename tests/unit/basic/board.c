@@ -133,6 +133,9 @@ size_t hal_console_write(const uint8_t *bytes, size_t size) {
     memcpy(state.shown + state.shown_length, bytes, size);
     state.shown_length += size;
     board.writes++;
+    if (board.on_write != NULL) {
+        board.on_write(bytes, size);
+    }
     if (board.writes == board.hold_at_write) {
         board_type("\x06", 1);
     }
