@@ -67,10 +67,9 @@ err_t autosave_read(bool *start) {
     incoming.length = 0;
     incoming.size = memory_free() > RESERVE ? memory_free() - RESERVE : 0;
     incoming.error = ERR_OK;
-    if (hal_tick_running()) {
+    if (!hal_storage_is_writable()) {
         incoming.error = ERR_STORAGE_BUSY;
-        console_print(
-            "Motion runs or an E-STOP input is watched: text up to Ctrl-Z or Ctrl-C is dropped");
+        console_print("Motion is under way: text up to Ctrl-Z or Ctrl-C is dropped");
         console_new_line();
     }
     if (!read_lines(start)) {

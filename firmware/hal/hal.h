@@ -1,7 +1,7 @@
 // The seam to the hardware: what the firmware asks of a board. Implemented by firmware/port/rp2 (RP2040,
 // RP2350) and firmware/port/host (POSIX, virtual time). Linked functions, no pointers; what the tick
-// needs is inline in the port's hal_port.h. Two functions are called upwards and belong to the core:
-// hal_on_tick() and hal_on_governor().
+// needs is inline in the port's hal_port.h. Four functions are called upwards and belong to the core:
+// hal_on_tick(), hal_on_governor(), hal_on_storage_begin() and hal_on_storage_end().
 //
 // Contexts, highest priority first:
 //   tick      hal_on_tick(), every 10 us while the tick runs; interrupts everything
@@ -117,15 +117,27 @@ size_t hal_console_write(const uint8_t *bytes, size_t size);
 
 // ---- Storage -------------------------------------------------------------------------------------
 // NOR flash for the user's data: erased bytes are 0xFF, programming clears bits. Offsets count from
-// the start of this area. Erase and program stop every context on a board for up to 50 ms and are
-// therefore refused (false) while the tick runs.
+// the start of this area. Erase and program stop every context on a board for up to 50 ms (400 ms is the
+// chip's worst) and are therefore refused (false) while motion is under way.
 
-#define HAL_STORAGE_SIZE (256u * 1024u)
+#define HAL_STORAGE_SIZE (1280u * 1024u)
 #define HAL_STORAGE_SECTOR 4096u // unit of erase
 #define HAL_STORAGE_PAGE 256u    // unit of program
 
 void hal_storage_read(uint32_t offset, void *bytes, size_t size);
 bool hal_storage_erase(uint32_t offset);                     // one sector
 bool hal_storage_program(uint32_t offset, const void *page); // one page
+
+// The storage as memory to be read. Stays valid.
+const void *hal_storage_map(uint32_t offset);
+
+// True if erase and program would not be refused now. Nothing but the main loop can change that.
+bool hal_storage_is_writable(void);
+
+// Implemented by the core (stepper/stepper_storage.c); called around each erase and program. `begin` stops
+// the tick if it only watches inputs; false: motion is under way, nothing is to be written, and `end` does
+// not follow.
+bool hal_on_storage_begin(void);
+void hal_on_storage_end(void);
 
 #endif

@@ -125,7 +125,7 @@ def test_bad_inputs_name_file_and_line(check_uf2: Path, tmp_path: Path) -> None:
 def test_flash_is_kept(check_uf2: Path, tmp_path: Path) -> None:
     image = tmp_path / "flash.bin"
     assert "programmed a5" in with_input("s\n", check_uf2, "--flash", image).stdout
-    assert os.path.getsize(image) == 256 * 1024
+    assert os.path.getsize(image) == 1280 * 1024
     assert "holds 05 05" in with_input("s1\n", check_uf2, "--flash", image).stdout
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from stepmite.emulator import Emulator, EmulatorError
 
-STORAGE_SIZE = 256 * 1024
+STORAGE_SIZE = 1280 * 1024
 
 
 def test_erase_and_program(check: Emulator) -> None:
@@ -56,7 +56,7 @@ def test_contents_survive_a_restart(check: Emulator) -> None:
 def test_image_of_the_wrong_size_is_refused(check_uf2: Path, tmp_path: Path) -> None:
     image = tmp_path / "flash.bin"
     image.write_bytes(b"\xff" * 100)
-    with pytest.raises(EmulatorError, match=r"has 100 bytes; a flash image has 262144"):
+    with pytest.raises(EmulatorError, match=r"has 100 bytes; a flash image has 1310720"):
         Emulator(check_uf2, storage=image)
 
 

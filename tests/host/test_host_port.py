@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 STEPMITE = Path(__file__).parents[2] / "build" / "host" / "stepmite"
-STORAGE_SIZE = 256 * 1024
+STORAGE_SIZE = 1280 * 1024
 DEADLINE_S = 60.0  # wall time after which a test counts as hung
 
 MACHINE = """\
@@ -240,7 +240,7 @@ def test_flash_image_is_kept(tmp_path: Path) -> None:
     assert image.stat().st_size == STORAGE_SIZE
     assert b"\r\nkept\r\n" in run("--flash", image, text="RUN\n").stdout
     image.write_bytes(image.read_bytes()[:-1])
-    assert b"262144 bytes" in run("--flash", image, code=2).stderr
+    assert b"1310720 bytes" in run("--flash", image, code=2).stderr
 
 
 # ---- Signals -------------------------------------------------------------------------------------

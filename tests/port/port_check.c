@@ -32,6 +32,12 @@ void HAL_RAM_FUNC(hal_on_tick)(void) {
     hal_pins_clear(1u << PULSE_GPIO);
 }
 
+bool hal_on_storage_begin(void) {
+    return !hal_tick_running();
+}
+
+void hal_on_storage_end(void) {}
+
 void hal_on_governor(void) {
     governor_calls = governor_calls + 1;
 }

@@ -73,7 +73,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("map", type=Path, help="for instance build/pico/stepmite-pico.elf.map")
     parser.add_argument(
-        "--storage", type=int, default=256 * 1024, help="bytes of flash kept for the user"
+        "--storage", type=int, default=1280 * 1024, help="bytes of flash kept for the user"
     )
     arguments = parser.parse_args()
     text = arguments.map.read_text(encoding="utf-8")

@@ -17,7 +17,8 @@
 #define PROGRAM_SIZE_MAX (16L * 1024 * 1024) // far beyond what the interpreter takes
 
 static const char usage[] =
-    "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv] [--flash IMAGE]\n"
+    "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv]\n"
+    "                [--flash IMAGE] [--flash-cut N[,before|,torn|,after]]\n"
     "                [--virtual|--realtime] [--help] [--version] [FILE.bas]\n";
 
 static const char help[] =
@@ -31,6 +32,8 @@ static const char help[] =
     "  --trace EDGES.csv    write every edge of every output pin: time_ns,gpio,level\n"
     "  --inputs EVENTS.csv  edges to apply to input pins, same columns, times from the start\n"
     "  --flash IMAGE        keep the flash storage in this file; it is made if it is missing\n"
+    "  --flash-cut N        cut the power at the Nth flash write: before it, after it, or in the\n"
+    "                       middle (torn, the default); leaves at once with code 3\n"
     "  --virtual            time jumps to the next event instead of passing\n"
     "  --realtime           time passes as on a board; the default if stdin and stdout are a "
     "terminal\n"
@@ -44,6 +47,7 @@ enum {
     OPTION_TRACE = 256,
     OPTION_INPUTS,
     OPTION_FLASH,
+    OPTION_FLASH_CUT,
     OPTION_VIRTUAL,
     OPTION_REALTIME,
     OPTION_HELP,
@@ -54,6 +58,7 @@ static const struct option long_options[] = {
     {"trace", required_argument, NULL, OPTION_TRACE},
     {"inputs", required_argument, NULL, OPTION_INPUTS},
     {"flash", required_argument, NULL, OPTION_FLASH},
+    {"flash-cut", required_argument, NULL, OPTION_FLASH_CUT},
     {"virtual", no_argument, NULL, OPTION_VIRTUAL},
     {"realtime", no_argument, NULL, OPTION_REALTIME},
     {"help", no_argument, NULL, OPTION_HELP},
@@ -100,6 +105,26 @@ static void read_program(const char *path) {
     close(file);
 }
 
+// N, or N and how.
+static void read_flash_cut(const char *text) {
+    static const char *const kinds[] = {"before", "torn", "after"};
+    char *behind;
+    unsigned long count = strtoul(text, &behind, 10);
+    unsigned kind = HOST_STORAGE_CUT_TORN;
+    if (*behind == ',') {
+        for (kind = 0; kind < COUNT_OF_ARRAY(kinds) && strcmp(behind + 1, kinds[kind]) != 0;) {
+            kind++;
+        }
+        behind = "";
+    }
+    if (count == 0 || count > UINT32_MAX || *behind != '\0' || kind == COUNT_OF_ARRAY(kinds)) {
+        fprintf(stderr, "stepmite: --flash-cut: '%s' is no number of a write\n", text);
+        leave_with_usage();
+    }
+    options.flash_cut = (unsigned)count;
+    options.flash_cut_kind = (host_storage_cut_t)kind;
+}
+
 // Default: somebody sits there and watches, or a program does not want to wait.
 static void choose_mode(bool want_virtual, bool want_realtime) {
     if (want_virtual && want_realtime) {
@@ -124,6 +149,9 @@ const host_options_t *host_options_parse(int argc, char **argv) {
             break;
         case OPTION_FLASH:
             options.flash_path = optarg;
+            break;
+        case OPTION_FLASH_CUT:
+            read_flash_cut(optarg);
             break;
         case OPTION_VIRTUAL:
             want_virtual = true;

@@ -1,4 +1,5 @@
-// Simulates NOR flash: erasing sets, programming only clears bits. Context: main.
+// Simulates NOR flash: erasing sets, programming only clears bits; and a power cut in the middle of it.
+// Context: main.
 #include "host_storage.h"
 
 #include <errno.h>
@@ -11,12 +12,24 @@
 #include "hal/hal.h"
 #include "host_system.h"
 
-// Kept inverted, so that fresh static memory is erased flash.
+#define OLD_IMAGE_SIZE (256 * 1024) // of firmware before there were files
+
 static struct {
-    uint8_t inverted[HAL_STORAGE_SIZE];
+    uint8_t bytes[HAL_STORAGE_SIZE];
+    bool ready; // they hold something: before, they are not erased yet
     int file;
     const char *path;
+    unsigned writes_left; // until the power is cut; 0: never
+    host_storage_cut_t cut;
 } storage = {.file = -1};
+
+static uint8_t *contents(void) {
+    if (!storage.ready) {
+        storage.ready = true;
+        memset(storage.bytes, 0xFF, sizeof storage.bytes);
+    }
+    return storage.bytes;
+}
 
 static bool is_range(uint32_t offset, size_t size) {
     return offset <= HAL_STORAGE_SIZE && size <= HAL_STORAGE_SIZE - offset;
@@ -27,26 +40,15 @@ static void save(uint32_t offset, size_t size) {
     if (storage.file < 0) {
         return;
     }
-    uint8_t bytes[HAL_STORAGE_SECTOR];
-    hal_storage_read(offset, bytes, size);
-    if (pwrite(storage.file, bytes, size, (off_t)offset) != (ssize_t)size) {
+    if (pwrite(storage.file, contents() + offset, size, (off_t)offset) != (ssize_t)size) {
         host_system_fail("%s: %s", storage.path, strerror(errno));
     }
 }
 
-static void create(void) {
-    for (uint32_t offset = 0; offset < HAL_STORAGE_SIZE; offset += HAL_STORAGE_SECTOR) {
-        save(offset, HAL_STORAGE_SECTOR);
-    }
-}
-
-static void load(void) {
-    ssize_t got = pread(storage.file, storage.inverted, HAL_STORAGE_SIZE, 0);
-    if (got != (ssize_t)HAL_STORAGE_SIZE) {
+static void load(size_t size) {
+    ssize_t got = pread(storage.file, contents(), size, 0);
+    if (got != (ssize_t)size) {
         host_system_fail("%s: %s", storage.path, got < 0 ? strerror(errno) : "ended too early");
-    }
-    for (size_t i = 0; i < HAL_STORAGE_SIZE; i++) {
-        storage.inverted[i] = (uint8_t)~storage.inverted[i];
     }
 }
 
@@ -67,13 +69,36 @@ void host_storage_open(const char *path) {
         host_system_fail("%s: not a regular file", path);
     }
     if (status.st_size == 0) {
-        create();
+        save(0, HAL_STORAGE_SIZE);
+    } else if (status.st_size == OLD_IMAGE_SIZE) { // its programs lie where they lie now
+        load(OLD_IMAGE_SIZE);
+        save(0, HAL_STORAGE_SIZE);
     } else if (status.st_size == (off_t)HAL_STORAGE_SIZE) {
-        load();
+        load(HAL_STORAGE_SIZE);
     } else {
         host_system_fail("%s: a flash image has %u bytes, this file has %lld", path,
                          HAL_STORAGE_SIZE, (long long)status.st_size);
     }
+}
+
+void host_storage_cut(unsigned writes, host_storage_cut_t cut) {
+    storage.writes_left = writes;
+    storage.cut = cut;
+}
+
+// The write at hand is the one in which the power goes. What a torn one leaves behind is different in each
+// byte, and the same in each run.
+static bool is_cut(void) {
+    return storage.writes_left != 0 && --storage.writes_left == 0;
+}
+
+static uint8_t half_of(size_t place) {
+    return (uint8_t)(place * 2654435761u >> 13);
+}
+
+static _Noreturn void cut_power(uint32_t offset, size_t size) {
+    save(offset, size);
+    _exit(HOST_STORAGE_EXIT_CUT); // nothing else happens any more, no output either
 }
 
 void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
@@ -81,31 +106,58 @@ void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
         host_system_fail("the firmware read beyond its storage: %zu bytes at %u", size,
                          (unsigned)offset);
     }
-    uint8_t *to = bytes;
-    for (size_t i = 0; i < size; i++) {
-        to[i] = (uint8_t)~storage.inverted[offset + i];
+    memcpy(bytes, contents() + offset, size);
+}
+
+const void *hal_storage_map(uint32_t offset) {
+    return contents() + offset;
+}
+
+bool hal_storage_is_writable(void) {
+    bool writable = hal_on_storage_begin();
+    if (writable) {
+        hal_on_storage_end();
     }
+    return writable;
 }
 
 bool hal_storage_erase(uint32_t offset) {
-    if (hal_tick_running() || offset % HAL_STORAGE_SECTOR != 0 ||
-        !is_range(offset, HAL_STORAGE_SECTOR)) {
+    if (offset % HAL_STORAGE_SECTOR != 0 || !is_range(offset, HAL_STORAGE_SECTOR) ||
+        !hal_on_storage_begin()) {
         return false;
     }
-    memset(storage.inverted + offset, 0, HAL_STORAGE_SECTOR);
+    uint8_t *sector = contents() + offset;
+    bool cut = is_cut();
+    for (size_t i = 0; i < HAL_STORAGE_SECTOR; i++) {
+        bool spared = cut && storage.cut == HOST_STORAGE_CUT_BEFORE;
+        uint8_t erased = cut && storage.cut == HOST_STORAGE_CUT_TORN ? half_of(i) : 0xFF;
+        sector[i] |= spared ? 0 : erased;
+    }
+    if (cut) {
+        cut_power(offset, HAL_STORAGE_SECTOR);
+    }
     save(offset, HAL_STORAGE_SECTOR);
+    hal_on_storage_end();
     return true;
 }
 
 bool hal_storage_program(uint32_t offset, const void *page) {
-    if (hal_tick_running() || offset % HAL_STORAGE_PAGE != 0 ||
-        !is_range(offset, HAL_STORAGE_PAGE)) {
+    if (offset % HAL_STORAGE_PAGE != 0 || !is_range(offset, HAL_STORAGE_PAGE) ||
+        !hal_on_storage_begin()) {
         return false;
     }
+    uint8_t *to = contents() + offset;
     const uint8_t *from = page;
+    bool cut = is_cut();
     for (size_t i = 0; i < HAL_STORAGE_PAGE; i++) {
-        storage.inverted[offset + i] |= (uint8_t)~from[i];
+        bool spared = cut && storage.cut == HOST_STORAGE_CUT_BEFORE;
+        uint8_t kept = cut && storage.cut == HOST_STORAGE_CUT_TORN ? half_of(i) : 0;
+        to[i] &= spared ? 0xFF : from[i] | kept;
+    }
+    if (cut) {
+        cut_power(offset, HAL_STORAGE_PAGE);
     }
     save(offset, HAL_STORAGE_PAGE);
+    hal_on_storage_end();
     return true;
 }

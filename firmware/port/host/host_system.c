@@ -24,6 +24,7 @@ void hal_init(int argc, char **argv) {
     if (options->flash_path != NULL) {
         host_storage_open(options->flash_path);
     }
+    host_storage_cut(options->flash_cut, options->flash_cut_kind);
     if (options->inputs_path != NULL) {
         host_inputs_load(options->inputs_path);
     }

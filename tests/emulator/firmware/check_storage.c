@@ -9,7 +9,7 @@
 
 #include "check.h"
 
-#define OFFSET (PICO_FLASH_SIZE_BYTES - 256u * 1024u)
+#define OFFSET (PICO_FLASH_SIZE_BYTES - 1280u * 1024u)
 
 static const volatile uint8_t *flash_at(uint32_t offset) {
     return (const volatile uint8_t *)(XIP_NOCACHE_NOALLOC_BASE + offset);

@@ -13,7 +13,7 @@ import { readUf2 } from './uf2.mjs';
 const PINS = 30;
 const FAULTS_KEPT = 100;
 const SLICE_NANOS = 50e3; // how often a condition is looked at
-export const STORAGE_SIZE = 256 * 1024; // the firmware's storage: the last part of the flash
+export const STORAGE_SIZE = 1280 * 1024; // the firmware's storage: the last part of the flash
 
 export class Board {
     // `uf2`: the program. `elf` (optional): its symbols. `bootrom`: file with the boot ROM.

@@ -179,6 +179,14 @@ void hal_storage_read(uint32_t offset, void *bytes, size_t size) {
     memcpy(bytes, state.flash + offset, size);
 }
 
+const void *hal_storage_map(uint32_t offset) {
+    return state.flash + offset;
+}
+
+bool hal_storage_is_writable(void) {
+    return !board.ticking;
+}
+
 bool hal_storage_erase(uint32_t offset) {
     if (board.ticking) {
         return false;

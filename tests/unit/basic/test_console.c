@@ -239,10 +239,10 @@ static void test_no_change_while_motion_runs(void) {
     board_session(PROGRAM("PRINT 11"));
     board.ticking = true;
     const char *shown = board_session(PROGRAM("PRINT 22") "PRINT 33\r");
-    TEST_ASSERT_NOT_NULL(strstr(shown, "Error : The program cannot be changed"));
+    TEST_ASSERT_NOT_NULL(strstr(shown, "Error : The flash cannot be written"));
     TEST_ASSERT_NULL(strstr(shown, "\r\n 22\r\n")); // not taken for a command
     TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 33\r\n"));
-    TEST_ASSERT_NOT_NULL(strstr(board_session("NEW\r"), "Error : The program cannot be changed"));
+    TEST_ASSERT_NOT_NULL(strstr(board_session("NEW\r"), "Error : The flash cannot be written"));
     TEST_ASSERT_NOT_NULL(strstr(board_session("RUN\r"), "\r\n 11\r\n"));
 }
 

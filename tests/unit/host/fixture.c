@@ -24,6 +24,12 @@ void hal_on_governor(void) {
     }
 }
 
+bool hal_on_storage_begin(void) {
+    return !hal_tick_running();
+}
+
+void hal_on_storage_end(void) {}
+
 void fixture_reset(void) {
     hal_tick_stop();
     fixture_core = (fixture_core_t){NULL, NULL};

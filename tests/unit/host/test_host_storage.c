@@ -88,7 +88,7 @@ static void test_unusable_images_are_reported(void) {
     char message[300];
     strcpy(path, fixture_file("short.bin", "short", 5));
     TEST_ASSERT_EQUAL_INT(2, fixture_exit_code(use_image, path, message, sizeof message));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message, "262144 bytes, this file has 5\n"), message);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message, "1310720 bytes, this file has 5\n"), message);
     TEST_ASSERT_EQUAL_INT(2, fixture_exit_code(use_image, "/tmp", message, sizeof message));
     TEST_ASSERT_EQUAL_INT(2, fixture_exit_code(use_image, "/dev/null", message, sizeof message));
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(message, "not a regular file"), message);

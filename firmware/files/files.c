@@ -1,0 +1,396 @@
+// Open files, and when they may be written. Context: main loop.
+#include "files/files.h"
+
+#include <string.h>
+
+#include "files_path.h"
+#include "files_volume.h"
+#include "hal/hal.h"
+
+#define REPLACEMENT "/~new" // a new content until it is complete
+
+typedef struct {
+    lfs_file_t file;
+    struct lfs_file_config config;
+    uint8_t buffer[FILES_BUFFER];
+    uint8_t mode;        // files_mode_t
+    bool open;           // for littlefs
+    bool closing;        // closed by the user; waits for motion to end
+    unsigned generation; // of the volume when it was opened
+} handle_t;
+
+static struct {
+    handle_t handles[FILES_OPEN_MAX];
+    unsigned closing;
+} files;
+
+static err_t call_volume(bool writes, volume_work_t work, const volume_call_t *call,
+                         lfs_ssize_t *result) {
+    return writes ? volume_write(work, call, result) : volume_read(work, call, result);
+}
+
+static lfs_ssize_t do_open(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_opencfg(lfs, call->file, call->path, call->flags, call->config);
+}
+
+static lfs_ssize_t do_close(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_close(lfs, call->file);
+}
+
+static lfs_ssize_t do_sync(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_sync(lfs, call->file);
+}
+
+static lfs_ssize_t do_read(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_read(lfs, call->file, call->bytes, call->size);
+}
+
+static lfs_ssize_t do_write(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_write(lfs, call->file, call->source, call->size);
+}
+
+static lfs_ssize_t do_seek(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_file_seek(lfs, call->file, (lfs_soff_t)call->size, LFS_SEEK_SET);
+}
+
+static lfs_ssize_t do_remove(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_remove(lfs, call->path);
+}
+
+static lfs_ssize_t do_rename(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_rename(lfs, call->path, call->to);
+}
+
+static lfs_ssize_t do_info(lfs_t *lfs, const volume_call_t *call) {
+    return lfs_stat(lfs, call->path, call->info);
+}
+
+// ---- Start ---------------------------------------------------------------------------------------
+
+// What a power cut left behind.
+static void remove_replacement(void) {
+    struct lfs_info info;
+    volume_call_t call = {.path = REPLACEMENT, .info = &info};
+    if (volume_read(do_info, &call, NULL) == ERR_OK) {
+        volume_write(do_remove, &call, NULL);
+    }
+}
+
+err_t files_start(void) {
+    memset(&files, 0, sizeof files);
+    if (!volume_start()) {
+        return err_raise(ERR_FILES_DAMAGED, NULL);
+    }
+    remove_replacement();
+    files_change_folder("/");
+    return ERR_OK;
+}
+
+err_t files_format(void) {
+    err_t error = volume_format();
+    if (error == ERR_OK) {
+        memset(&files, 0, sizeof files);
+        files_change_folder("/");
+    }
+    return error;
+}
+
+// ---- Opening -------------------------------------------------------------------------------------
+
+static bool is_same(const lfs_file_t *a, const lfs_file_t *b) {
+    bool pair = (a->m.pair[0] == b->m.pair[0] && a->m.pair[1] == b->m.pair[1]) ||
+                (a->m.pair[0] == b->m.pair[1] && a->m.pair[1] == b->m.pair[0]);
+    return pair && a->id == b->id;
+}
+
+static bool is_lost(const handle_t *handle) {
+    return handle->generation != volume_generation();
+}
+
+static bool is_opened(const lfs_file_t *file, bool for_writing) {
+    for (size_t i = 0; i < FILES_OPEN_MAX; i++) {
+        const handle_t *handle = &files.handles[i];
+        if (handle->open && !is_lost(handle) && &handle->file != file &&
+            (for_writing || handle->mode != FILES_READ) && is_same(&handle->file, file)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// littlefs would let a file be changed under the feet of those who read it.
+static err_t check_unused(const char *path) {
+    lfs_file_t file;
+    uint8_t buffer[FILES_BUFFER];
+    struct lfs_file_config config = {.buffer = buffer};
+    volume_call_t call = {
+        .path = path, .file = &file, .config = &config, .flags = LFS_O_RDONLY};
+    if (volume_read(do_open, &call, NULL) != ERR_OK) {
+        return ERR_OK; // a folder, or nothing: littlefs will tell
+    }
+    bool used = is_opened(&file, true);
+    volume_read(do_close, &call, NULL);
+    return used ? err_raise(ERR_FILE_IN_USE, "%s", path) : ERR_OK;
+}
+
+static handle_t *free_handle(int *number) {
+    for (int i = 0; i < FILES_OPEN_MAX; i++) {
+        if (!files.handles[i].open) {
+            *number = i;
+            return &files.handles[i];
+        }
+    }
+    return NULL;
+}
+
+static err_t open_handle(handle_t *handle, const char *path, files_mode_t mode) {
+    static const int flags[] = {
+        [FILES_READ] = LFS_O_RDONLY,
+        [FILES_WRITE] = LFS_O_WRONLY | LFS_O_CREAT | LFS_O_TRUNC,
+        [FILES_APPEND] = LFS_O_WRONLY | LFS_O_CREAT | LFS_O_APPEND,
+        [FILES_UPDATE] = LFS_O_RDWR | LFS_O_CREAT,
+    };
+    memset(handle, 0, sizeof *handle);
+    handle->config.buffer = handle->buffer;
+    handle->mode = (uint8_t)mode;
+    volume_call_t call = {
+        .path = path, .file = &handle->file, .config = &handle->config, .flags = flags[mode]};
+    err_t error = call_volume(mode != FILES_READ, do_open, &call, NULL);
+    if (error != ERR_OK) {
+        return error;
+    }
+    handle->open = true;
+    handle->generation = volume_generation();
+    if (mode == FILES_READ && is_opened(&handle->file, false)) {
+        handle->open = false;
+        volume_read(do_close, &call, NULL);
+        return err_raise(ERR_FILE_IN_USE, "%s", path);
+    }
+    return ERR_OK;
+}
+
+err_t files_open(const char *path, files_mode_t mode, int *number) {
+    files_path_t place;
+    err_t error = path_resolve(path, &place);
+    if (error == ERR_OK && mode != FILES_READ) {
+        error = check_unused(place.text);
+    }
+    if (error != ERR_OK) {
+        return error;
+    }
+    handle_t *handle = free_handle(number);
+    return handle != NULL ? open_handle(handle, place.text, mode)
+                          : err_raise(ERR_FILES_TOO_MANY, NULL);
+}
+
+// ---- Reading and writing -------------------------------------------------------------------------
+
+// The handle, if it is open and good for what is wanted.
+static handle_t *use(int number, bool writes, err_t *error) {
+    handle_t *handle = &files.handles[number];
+    *error = ERR_OK;
+    if (is_lost(handle)) {
+        *error = err_raise(ERR_FILES_DAMAGED, NULL);
+    } else if (writes ? handle->mode == FILES_READ
+                      : handle->mode == FILES_WRITE || handle->mode == FILES_APPEND) {
+        *error = err_raise(ERR_FILE_MODE, NULL);
+    }
+    return handle;
+}
+
+static bool has_unwritten(const handle_t *handle) {
+    return (handle->file.flags & LFS_F_WRITING) != 0 && (handle->file.flags & LFS_F_INLINE) == 0;
+}
+
+// True if littlefs would take these bytes without touching the flash: a small file lives in its buffer,
+// a larger one writes it out when it is full.
+static bool fits_buffer(const handle_t *handle, size_t size) {
+    const lfs_file_t *file = &handle->file;
+    if (file->flags & LFS_F_INLINE) {
+        lfs_off_t start = handle->mode == FILES_APPEND ? file->ctz.size : file->pos;
+        return size <= FILES_BUFFER && start + size <= FILES_BUFFER;
+    }
+    return has_unwritten(handle) && file->off < HAL_STORAGE_SECTOR &&
+           size < FILES_BUFFER - file->off % FILES_BUFFER;
+}
+
+err_t files_read(int number, void *bytes, size_t size, size_t *got) {
+    err_t error;
+    handle_t *handle = use(number, false, &error);
+    *got = 0;
+    if (error != ERR_OK) {
+        return error;
+    }
+    volume_call_t call = {.file = &handle->file, .bytes = bytes, .size = (lfs_size_t)size};
+    lfs_ssize_t result;
+    error = call_volume(has_unwritten(handle), do_read, &call, &result);
+    *got = error == ERR_OK ? (size_t)result : 0;
+    return error;
+}
+
+err_t files_write(int number, const void *bytes, size_t size) {
+    err_t error;
+    handle_t *handle = use(number, true, &error);
+    if (error != ERR_OK) {
+        return error;
+    }
+    volume_call_t call = {.file = &handle->file, .source = bytes, .size = (lfs_size_t)size};
+    return call_volume(!fits_buffer(handle, size), do_write, &call, NULL);
+}
+
+err_t files_flush(int number) {
+    err_t error;
+    handle_t *handle = use(number, true, &error);
+    if (error != ERR_OK) {
+        return error;
+    }
+    volume_call_t call = {.file = &handle->file};
+    return volume_write(do_sync, &call, NULL);
+}
+
+err_t files_seek(int number, uint32_t position) {
+    handle_t *handle = &files.handles[number];
+    if (is_lost(handle)) {
+        return err_raise(ERR_FILES_DAMAGED, NULL);
+    }
+    if (position > files_size(number)) {
+        return err_raise(ERR_FILE_POSITION, NULL);
+    }
+    volume_call_t call = {.file = &handle->file, .size = position};
+    return call_volume(has_unwritten(handle), do_seek, &call, NULL);
+}
+
+uint32_t files_size(int number) {
+    const lfs_file_t *file = &files.handles[number].file;
+    bool longer = (file->flags & LFS_F_WRITING) != 0 && file->pos > file->ctz.size;
+    return longer ? file->pos : file->ctz.size;
+}
+
+uint32_t files_position(int number) {
+    return files.handles[number].file.pos;
+}
+
+// ---- Closing -------------------------------------------------------------------------------------
+
+static err_t close_now(handle_t *handle) {
+    bool writes = handle->mode != FILES_READ;
+    volume_call_t call = {.file = &handle->file};
+    handle->open = false;
+    return is_lost(handle) ? ERR_OK : call_volume(writes, do_close, &call, NULL);
+}
+
+err_t files_close(int number) {
+    handle_t *handle = &files.handles[number];
+    if (handle->mode != FILES_READ && !hal_storage_is_writable()) {
+        files.closing += !handle->closing;
+        handle->closing = true;
+        return ERR_OK;
+    }
+    return close_now(handle);
+}
+
+void files_close_all(void) {
+    for (int i = 0; i < FILES_OPEN_MAX; i++) {
+        if (files.handles[i].open) {
+            files_close(i);
+        }
+    }
+}
+
+void files_background(void) {
+    if (files.closing == 0 || !hal_storage_is_writable()) {
+        return;
+    }
+    files.closing = 0;
+    for (size_t i = 0; i < FILES_OPEN_MAX; i++) {
+        if (files.handles[i].open && files.handles[i].closing) {
+            close_now(&files.handles[i]);
+        }
+    }
+}
+
+// ---- Whole files ---------------------------------------------------------------------------------
+
+static err_t write_replacement(const void *bytes, size_t size) {
+    int number;
+    err_t error = files_open(REPLACEMENT, FILES_WRITE, &number);
+    if (error != ERR_OK) {
+        return error;
+    }
+    error = files_write(number, bytes, size);
+    err_t closing = files_close(number);
+    return error != ERR_OK ? error : closing;
+}
+
+err_t files_replace(const char *path, const void *bytes, size_t size) {
+    files_path_t place;
+    err_t error = path_resolve(path, &place);
+    if (error == ERR_OK) {
+        error = check_unused(place.text);
+    }
+    if (error == ERR_OK) {
+        error = write_replacement(bytes, size);
+    }
+    if (error == ERR_OK) {
+        volume_call_t call = {.path = REPLACEMENT, .to = place.text};
+        error = volume_write(do_rename, &call, NULL);
+    }
+    if (error != ERR_OK && hal_storage_is_writable()) {
+        volume_call_t call = {.path = REPLACEMENT};
+        char message[ERR_MESSAGE_SIZE];
+        strcpy(message, err_message());
+        volume_write(do_remove, &call, NULL);
+        err_raise(ERR_ARGUMENT, "%s", message);
+    }
+    return error;
+}
+
+err_t files_remove(const char *path) {
+    files_path_t place;
+    files_entry_t entry;
+    err_t error = path_resolve(path, &place);
+    if (error == ERR_OK) {
+        error = files_info(path, &entry);
+    }
+    if (error == ERR_OK && entry.is_folder) {
+        error = err_raise(ERR_IS_A_FOLDER, "%s", place.text);
+    }
+    if (error == ERR_OK) {
+        error = check_unused(place.text);
+    }
+    volume_call_t call = {.path = place.text};
+    return error != ERR_OK ? error : volume_write(do_remove, &call, NULL);
+}
+
+err_t files_rename(const char *from, const char *to) {
+    files_path_t old, new;
+    files_entry_t entry;
+    err_t error = path_resolve(from, &old);
+    if (error == ERR_OK) {
+        error = path_resolve(to, &new);
+    }
+    if (error == ERR_OK) {
+        error = check_unused(old.text);
+    }
+    if (error == ERR_OK && files_info(to, &entry) == ERR_OK) {
+        error = err_raise(ERR_FILE_EXISTS, "%s", new.text);
+    }
+    volume_call_t call = {.path = old.text, .to = new.text};
+    return error != ERR_OK ? error : volume_write(do_rename, &call, NULL);
+}
+
+err_t files_info(const char *path, files_entry_t *entry) {
+    files_path_t place;
+    err_t error = path_resolve(path, &place);
+    struct lfs_info info = {.type = LFS_TYPE_DIR, .name = "/"};
+    if (error == ERR_OK && place.text[1] != '\0') {
+        volume_call_t call = {.path = place.text, .info = &info};
+        error = volume_read(do_info, &call, NULL);
+    }
+    if (error == ERR_OK) {
+        strcpy(entry->name, info.name);
+        entry->is_folder = info.type == LFS_TYPE_DIR;
+        entry->size = entry->is_folder ? 0 : info.size;
+    }
+    return error;
+}

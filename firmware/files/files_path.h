@@ -1,0 +1,14 @@
+// Paths as the user writes them, made absolute. Inside files/ only. Context: main loop.
+#ifndef FILES_PATH_H
+#define FILES_PATH_H
+
+#include "files/files.h"
+
+typedef struct {
+    char text[FILES_PATH_MAX + 1]; // "/folder/name", without . and ..; "/" for the root
+} files_path_t;
+
+// Error: no name that can be.
+err_t path_resolve(const char *path, files_path_t *out);
+
+#endif
