@@ -8,8 +8,10 @@ target_compile_options(stepmite_flags INTERFACE
     -Wno-format-truncation # messages are meant to be cut at their buffer's end
     -ffp-contract=off -fno-math-errno
 )
+add_library(stepmite_sanitizers INTERFACE) # also for the libraries in the host program
 if(STEPMITE_SANITIZE)
     set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-    target_compile_options(stepmite_flags INTERFACE ${sanitize})
-    target_link_options(stepmite_flags INTERFACE ${sanitize})
+    target_compile_options(stepmite_sanitizers INTERFACE ${sanitize})
+    target_link_options(stepmite_sanitizers INTERFACE ${sanitize})
 endif()
+target_link_libraries(stepmite_flags INTERFACE stepmite_sanitizers)

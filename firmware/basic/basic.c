@@ -12,6 +12,7 @@
 #include "console.h"
 #include "errors.h"
 #include "events.h"
+#include "files/files.h"
 #include "hal/hal.h"
 #include "help.h"
 #include "line_editor.h"
@@ -102,6 +103,7 @@ static void show_waiting_notices(void) {
 static void background(void) {
     show_waiting_notices();
     channels_background();
+    files_background();
     vm.background();
 }
 
@@ -195,7 +197,7 @@ static void serve(vm_request_t request) {
         run_program();
         break;
     case VM_REQUEST_NEW:
-        if (hal_tick_running()) {
+        if (!hal_storage_is_writable()) {
             report(err_raise(ERR_STORAGE_BUSY, "%s", ""));
             break;
         }
@@ -259,6 +261,7 @@ void basic_start(const basic_config_t *new_config) {
     if (config->banner != NULL) {
         console_print(config->banner);
     }
+    report(files_start());
     size_t length;
     err_t error =
         program_storage_load((char *)memory.floor, (size_t)(memory.top - memory.floor), &length);

@@ -123,8 +123,7 @@ static err_t check_unused(const char *path) {
     lfs_file_t file;
     uint8_t buffer[FILES_BUFFER];
     struct lfs_file_config config = {.buffer = buffer};
-    volume_call_t call = {
-        .path = path, .file = &file, .config = &config, .flags = LFS_O_RDONLY};
+    volume_call_t call = {.path = path, .file = &file, .config = &config, .flags = LFS_O_RDONLY};
     if (volume_read(do_open, &call, NULL) != ERR_OK) {
         return ERR_OK; // a folder, or nothing: littlefs will tell
     }

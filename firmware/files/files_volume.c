@@ -101,9 +101,9 @@ static err_t error_of(lfs_ssize_t error, const volume_call_t *call) {
         int lfs;
         err_t code;
     } errors[] = {
-        {LFS_ERR_NOENT, ERR_FILE_NOT_FOUND},    {LFS_ERR_EXIST, ERR_FILE_EXISTS},
-        {LFS_ERR_NOTDIR, ERR_NOT_A_FOLDER},     {LFS_ERR_ISDIR, ERR_IS_A_FOLDER},
-        {LFS_ERR_NOTEMPTY, ERR_FOLDER_IN_USE},  {LFS_ERR_NOSPC, ERR_DISK_FULL},
+        {LFS_ERR_NOENT, ERR_FILE_NOT_FOUND},      {LFS_ERR_EXIST, ERR_FILE_EXISTS},
+        {LFS_ERR_NOTDIR, ERR_NOT_A_FOLDER},       {LFS_ERR_ISDIR, ERR_IS_A_FOLDER},
+        {LFS_ERR_NOTEMPTY, ERR_FOLDER_IN_USE},    {LFS_ERR_NOSPC, ERR_DISK_FULL},
         {LFS_ERR_NAMETOOLONG, ERR_FILE_BAD_NAME}, {LFS_ERR_FBIG, ERR_DISK_FULL},
     };
     const char *name = error == LFS_ERR_EXIST && call->to != NULL ? call->to : call->path;

@@ -130,7 +130,13 @@ static void test_folders_and_paths(void) {
 
 static void test_bad_names_are_refused(void) {
     static const char *const names[] = {
-        "", "x:b", "B:/x", "what?", "a*", "tab\there", "\x7F",
+        "",
+        "x:b",
+        "B:/x",
+        "what?",
+        "a*",
+        "tab\there",
+        "\x7F",
         "123456789012345678901234567890123456789012345678901234567890.txt",
         "/12345678901234567890123456789012345/12345678901234567890123456789012345/"
         "12345678901234567890123456789012345/12345678901234567890",
@@ -176,7 +182,8 @@ static void test_a_full_flash_keeps_what_is_there(void) {
     }
     expect(ERR_DISK_FULL, error, "Not enough space on A:");
     files_close(handle);
-    TEST_ASSERT_EQUAL(ERR_OK, files_start()); // nothing of "big" was closed: its space is free again
+    TEST_ASSERT_EQUAL(ERR_OK,
+                      files_start()); // nothing of "big" was closed: its space is free again
     TEST_ASSERT_EQUAL_STRING("precious", contents("keep"));
     put("keep", "more");
     TEST_ASSERT_EQUAL_STRING("more", contents("keep"));
