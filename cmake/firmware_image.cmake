@@ -6,8 +6,8 @@ function(stepmite_firmware_image target main)
     target_link_libraries(${target} PRIVATE ${STEPMITE_SDK_LIBRARIES} pico_stdio_usb m)
     target_compile_definitions(${target} PRIVATE ${STEPMITE_SDK_DEFINITIONS})
 
-    # newlib's printf, so that numbers look the same on the board and on the host.
-    pico_set_printf_implementation(${target} compiler)
+    # No printf at all: ours is format_text() of base, which needs no heap.
+    pico_set_printf_implementation(${target} none)
 
     # main() on a stack of its own (rp2_memory.c), and an end of the image below the storage (rp2_storage.c).
     set(port ${CMAKE_SOURCE_DIR}/firmware/port/rp2)

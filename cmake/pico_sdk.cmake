@@ -41,7 +41,7 @@ set(STEPMITE_SDK_LIBRARIES
 # Settings of the SDK, for its sources and for its headers in ours.
 set(STEPMITE_SDK_DEFINITIONS
     PICO_STACK_SIZE=0x1000          # of interrupts: all of the memory bank it is in
-    PICO_HEAP_SIZE=0x3000           # newlib's printf and strtod take up to two pages of 4 KB; the rest aligns
+    PICO_HEAP_SIZE=4                # nobody allocates (tools/audit/heap.py); 0 draws a warning
     PICO_PANIC_FUNCTION=rp2_fault_panic
     PICO_STDIO_USB_LOW_PRIORITY_IRQ=FIRST_USER_IRQ+1 # RP2_USB_IRQ of hal_port.h
     PICO_STDIO_USB_ENABLE_RESET_VIA_BAUD_RATE=0      # rp2_usb.c does it, but not while motors turn

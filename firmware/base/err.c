@@ -2,8 +2,9 @@
 #include "base/err.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
+
+#include "base/format.h"
 
 static const char *const err_texts[ERR_COUNT] = {
     [ERR_OK] = "",
@@ -18,7 +19,7 @@ err_t err_raise(err_t code, const char *detail_format, ...) {
     const char *text = err_texts[code];
     const char *slot = strchr(text, '%');
     if (slot == NULL) {
-        snprintf(err_text_now, sizeof err_text_now, "%s", text);
+        format_text(err_text_now, sizeof err_text_now, "%s", text);
         return code;
     }
 
@@ -27,12 +28,12 @@ err_t err_raise(err_t code, const char *detail_format, ...) {
     if (detail_format != NULL) {
         va_list args;
         va_start(args, detail_format);
-        vsnprintf(detail, sizeof detail, detail_format, args);
+        format_list(detail, sizeof detail, detail_format, args);
         va_end(args);
     }
-    int length = snprintf(err_text_now, sizeof err_text_now, "%.*s%s%s", (int)(slot - text), text,
-                          detail, slot + 1);
-    if (length >= (int)sizeof err_text_now) {
+    size_t length = format_text(err_text_now, sizeof err_text_now, "%.*s%s%s", (int)(slot - text),
+                                text, detail, slot + 1);
+    if (length >= sizeof err_text_now) {
         memcpy(err_text_now + sizeof err_text_now - sizeof "...", "...", sizeof "...");
     }
     return code;

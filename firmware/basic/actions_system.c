@@ -1,5 +1,4 @@
 // PAUSE, TIMER, RUN, LIST, OPTION, ON ERROR and the like at run time. Context: main loop.
-#include <stdio.h>
 #include <string.h>
 
 #include "actions.h"
@@ -136,8 +135,8 @@ ACTION_BODY(memory) {
     (void)count;
     char text[80];
     size_t total = (size_t)(memory.top - memory.floor);
-    snprintf(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n",
-             (unsigned)program_length(), (unsigned)memory_free(), (unsigned)total);
+    format_text(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n",
+                (unsigned)program_length(), (unsigned)memory_free(), (unsigned)total);
     console_print(text);
 }
 

@@ -1,6 +1,5 @@
 // Values to arguments: conversion, range check and the error that names the argument. Then the call.
 // Context: main loop.
-#include <stdio.h>
 #include <string.h>
 
 #include "args.h"
@@ -17,9 +16,9 @@ static const char *shown_value(const value_t *value, char *buffer, size_t size) 
     if (value_is_numeric(value)) {
         char text[NUMBER_TEXT_SIZE];
         number_text_value(text, value);
-        snprintf(buffer, size, "%s", text);
+        format_text(buffer, size, "%s", text);
     } else {
-        snprintf(buffer, size, "%.*s", (int)value->length, value->text);
+        format_text(buffer, size, "%.*s", (int)value->length, value->text);
     }
     return buffer;
 }
@@ -31,13 +30,13 @@ static void describe_limits(const basic_arg_spec_t *spec, char *buffer, size_t s
     args_format_limit(most, spec->max);
     const char *above = spec->flags & BASIC_ARG_ABOVE_MIN ? "above " : "";
     if (spec->min == 0.0 && spec->max == 0.0) {
-        snprintf(buffer, size, "any number");
+        format_text(buffer, size, "any number");
     } else if (spec->max >= UNLIMITED) {
-        snprintf(buffer, size, "%s%s%s", above, least, *above != '\0' ? "" : " or more");
+        format_text(buffer, size, "%s%s%s", above, least, *above != '\0' ? "" : " or more");
     } else if (spec->min <= -UNLIMITED) {
-        snprintf(buffer, size, "%s or less", most);
+        format_text(buffer, size, "%s or less", most);
     } else {
-        snprintf(buffer, size, "%s%s to %s", above, least, most);
+        format_text(buffer, size, "%s%s to %s", above, least, most);
     }
 }
 
@@ -48,7 +47,7 @@ void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size
         used = strlen(buffer);
     }
     if (spec->choices != NULL) {
-        used += (size_t)snprintf(buffer + used, size - used, used > 0 ? ", " : "");
+        used += format_text(buffer + used, size - used, used > 0 ? ", " : "");
         choices_list(spec->choices, buffer + used, size - used);
     }
 }
@@ -56,7 +55,7 @@ void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size
 // Limits are shown in full: 100000000, not 1e+08.
 void args_format_limit(char *buffer, double limit) {
     if (limit > -1e15 && limit < 1e15 && limit == (double)(int64_t)limit) {
-        number_text_integer(buffer, (int64_t)limit);
+        num_text_integer(buffer, (int64_t)limit);
     } else {
         number_text_float(buffer, limit);
     }

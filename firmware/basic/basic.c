@@ -2,7 +2,6 @@
 #include "basic/basic.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "args.h"
@@ -50,7 +49,7 @@ void basic_printf(const char *format, ...) {
     char text[PRINT_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    format_list(text, sizeof text, format, args);
     va_end(args);
     write_lines(text);
 }
@@ -81,7 +80,7 @@ void basic_notice(const char *format, ...) {
     char text[PRINT_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    format_list(text, sizeof text, format, args);
     va_end(args);
     if (console_is_busy()) {
         keep_notice(text);
@@ -110,7 +109,7 @@ static void background(void) {
 char *basic_format_number(char *buffer, size_t size, double value) {
     char text[NUMBER_TEXT_SIZE];
     number_text_float(text, value);
-    snprintf(buffer, size, "%s", text);
+    format_text(buffer, size, "%s", text);
     return buffer;
 }
 
@@ -125,7 +124,7 @@ static void print_error(const char *message) {
     const char *line = vm_line() != 0 ? program_line(vm_line(), &length) : NULL;
     if (line != NULL) {
         char number[16];
-        snprintf(number, sizeof number, "[%u] ", vm_line());
+        format_text(number, sizeof number, "[%u] ", vm_line());
         console_print(number);
         console_write(line, length);
         console_new_line();

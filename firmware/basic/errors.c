@@ -3,7 +3,6 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 static struct {
@@ -31,7 +30,7 @@ void errors_fail_with(err_t code, const char *format, ...) {
     char detail[ERR_MESSAGE_SIZE];
     va_list args;
     va_start(args, format);
-    vsnprintf(detail, sizeof detail, format, args);
+    format_list(detail, sizeof detail, format, args);
     va_end(args);
     err_raise(code, "%s", detail);
     errors_fail_raised();

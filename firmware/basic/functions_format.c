@@ -1,5 +1,4 @@
 // STR$ and FORMAT$: numbers laid out as the program wants. Context: main loop.
-#include <stdio.h>
 #include <string.h>
 
 #include "errors.h"
@@ -37,12 +36,12 @@ static size_t number_for_str(char *text, value_t *number, bool has_decimals, int
         return number_text_value(text, number);
     }
     if (decimals < 0) {
-        return number_text_exponent(text, value_to_number(number), -decimals);
+        return num_text_exponent(text, value_to_number(number), -decimals);
     }
     if (number->type == VALUE_INTEGER && decimals == 0) {
-        return number_text_integer(text, number->integer);
+        return num_text_integer(text, number->integer);
     }
-    return number_text_fixed(text, value_to_number(number), decimals);
+    return num_text_fixed(text, value_to_number(number), decimals);
 }
 
 FUNCTION(str) {
@@ -118,11 +117,11 @@ static void read_specification(const value_t *format, specification_t *out) {
 static size_t format_number(char *text, const specification_t *how, double number) {
     switch (how->letter) {
     case 'f':
-        return number_text_fixed(text, number, how->precision);
+        return num_text_fixed(text, number, how->precision);
     case 'e':
-        return number_text_exponent(text, number, how->precision);
+        return num_text_exponent(text, number, how->precision);
     default:
-        return number_text_general(text, number, how->precision == 0 ? 1 : how->precision);
+        return num_text_general(text, number, how->precision == 0 ? 1 : how->precision);
     }
 }
 

@@ -13,7 +13,7 @@
 static size_t in_range(const value_t *value, int64_t least, int64_t most) {
     if (value->integer < least || value->integer > most) {
         char text[32];
-        number_text_integer(text, value->integer);
+        num_text_integer(text, value->integer);
         errors_fail_with(ERR_ARGUMENT, "%s is invalid (valid is %d to %d)", text, (int)least,
                          (int)most);
     }
@@ -134,7 +134,7 @@ FUNCTION(instr) {
 static void set_in_base(value_t *arguments, unsigned count, value_t *result, unsigned base) {
     char text[NUMBER_TEXT_SIZE];
     size_t width = count > 1 ? in_range(&arguments[1], 0, 64) : 0;
-    size_t length = number_text_base(text, (uint64_t)arguments->integer, base, width);
+    size_t length = num_text_unsigned(text, (uint64_t)arguments->integer, base, width);
     set_copy(result, text, length);
 }
 

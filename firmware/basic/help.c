@@ -1,7 +1,6 @@
 // HELP, made of the tables of statements, functions and the configuration's rows. Context: main loop.
 #include "help.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "args.h"
@@ -96,17 +95,17 @@ static void print_argument(const basic_arg_spec_t *spec) {
     if (limited || spec->choices != NULL) {
         args_describe_range(spec, range, sizeof range);
     } else {
-        snprintf(range, sizeof range, "%s", kind_text(spec->kind));
+        format_text(range, sizeof range, "%s", kind_text(spec->kind));
     }
     char fallback[NUMBER_TEXT_SIZE] = "";
     if (spec->flags & BASIC_ARG_DEFAULT) {
         args_format_limit(fallback, spec->fallback);
     }
-    snprintf(text, sizeof text, "  %-16s %s%s%s%s%s%s%s%s", spec->name, range,
-             spec->unit != NULL ? " " : "", spec->unit != NULL ? spec->unit : "",
-             *fallback != '\0' ? ", default " : "", fallback,
-             is_optional(spec) && *fallback == '\0' ? ", optional" : "",
-             spec->help != NULL ? ": " : "", spec->help != NULL ? spec->help : "");
+    format_text(text, sizeof text, "  %-16s %s%s%s%s%s%s%s%s", spec->name, range,
+                spec->unit != NULL ? " " : "", spec->unit != NULL ? spec->unit : "",
+                *fallback != '\0' ? ", default " : "", fallback,
+                is_optional(spec) && *fallback == '\0' ? ", optional" : "",
+                spec->help != NULL ? ": " : "", spec->help != NULL ? spec->help : "");
     print_line(text);
 }
 

@@ -2,9 +2,9 @@
 // pasted line costs one write. Context: main loop.
 #include "line_editor.h"
 
-#include <stdio.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "console.h"
 #include "history.h"
 #include "keys.h"
@@ -49,7 +49,7 @@ static void write_line(size_t from, size_t to) {
 
 static void print_sequence(size_t count, char letter) {
     char sequence[16];
-    snprintf(sequence, sizeof sequence, "\x1b[%u%c", (unsigned)count, letter);
+    format_text(sequence, sizeof sequence, "\x1b[%u%c", (unsigned)count, letter);
     console_print(sequence);
 }
 

@@ -2,7 +2,6 @@
 #include "vm.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "actions.h"
@@ -449,7 +448,7 @@ static void loop(void) {
 
 // True if ON ERROR lets the program go on; then it does so behind the statement that failed.
 static bool goes_on_after_error(void) {
-    snprintf(vm.error_text, sizeof vm.error_text, "%s", err_message());
+    format_text(vm.error_text, sizeof vm.error_text, "%s", err_message());
     if (vm.on_error == VM_ERROR_ABORT) {
         return false;
     }

@@ -1,7 +1,7 @@
 // Pin names and ownership; the same for every board. Context: main loop.
 #include "hal/pins.h"
 
-#include <stdio.h>
+#include "base/base.h"
 
 #define NAME_BUFFERS 4
 #define LED_GPIO 25u
@@ -41,9 +41,9 @@ const char *pins_name(unsigned gpio) {
     }
     char *name = pins.names[pins.next_name++ % NAME_BUFFERS];
     if (pins_board_number(gpio) != 0) {
-        snprintf(name, sizeof pins.names[0], "GP%u (pin %u)", gpio, pins_board_number(gpio));
+        format_text(name, sizeof pins.names[0], "GP%u (pin %u)", gpio, pins_board_number(gpio));
     } else {
-        snprintf(name, sizeof pins.names[0], "GP%u", gpio);
+        format_text(name, sizeof pins.names[0], "GP%u", gpio);
     }
     return name;
 }

@@ -5,8 +5,6 @@
 // Context: any, except where said.
 #include "hal/hal.h"
 
-#include <stdio.h>
-
 #include "hardware/structs/psm.h"
 #include "hardware/watchdog.h"
 
@@ -23,12 +21,13 @@ void rp2_fault_init(void) {
     unsigned long pc = watchdog_hw->scratch[1];
     unsigned long lr = watchdog_hw->scratch[2];
     if (reason == REASON_FAULT) {
-        snprintf(report, sizeof report, "Restarted after a fault at PC=%08lX LR=%08lX\r\n", pc, lr);
+        format_text(report, sizeof report, "Restarted after a fault at PC=%08lX LR=%08lX\r\n", pc,
+                    lr);
     } else if (reason == REASON_PANIC) {
-        snprintf(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
+        format_text(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
     } else if (watchdog_enable_caused_reboot()) {
-        snprintf(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
-                 WATCHDOG_MS / 1000);
+        format_text(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
+                    WATCHDOG_MS / 1000);
     }
     watchdog_hw->scratch[0] = 0;
     watchdog_enable(WATCHDOG_MS, true);

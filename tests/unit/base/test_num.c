@@ -161,6 +161,29 @@ static void test_random_numerals_match_strtod(void) {
     }
 }
 
+// Up to a thousand digits: right at, and a last digit beside, the middle between two doubles.
+static void test_ties_of_any_length(void) {
+    char text[1200];
+    for (int i = 0; i < 20000; i++) {
+        uint64_t bits = (uint64_t)random_below(0x7FE00000u) << 32 | random_below(UINT32_MAX);
+        if (i % 4 == 0) {
+            bits >>= 12 + random_below(50); // the smallest of all
+        }
+        double value, next;
+        memcpy(&value, &bits, sizeof value);
+        bits++;
+        memcpy(&next, &bits, sizeof next);
+        long double middle = ((long double)value + (long double)next) / 2;
+        snprintf(text, sizeof text, "%.*Le", (int)random_below(1100), middle);
+        char *e = strchr(text, 'e');
+        uint32_t change = random_below(3);
+        if (change > 0 && e[-1] > '0' && e[-1] < '9') {
+            e[-1] = (char)(e[-1] + (change == 1 ? 1 : -1));
+        }
+        assert_parses(text, (int)strlen(text), strtod(text, NULL));
+    }
+}
+
 static void test_random_doubles_survive_17_digits(void) {
     char text[64];
     for (int i = 0; i < 100000; i++) {
@@ -184,6 +207,7 @@ int main(void) {
     RUN_TEST(test_beyond_double_is_refused);
     RUN_TEST(test_very_long_numerals);
     RUN_TEST(test_random_numerals_match_strtod);
+    RUN_TEST(test_ties_of_any_length);
     RUN_TEST(test_random_doubles_survive_17_digits);
     return UNITY_END();
 }
