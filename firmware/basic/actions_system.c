@@ -26,9 +26,9 @@ static void stop_with(vm_request_t request) {
 }
 
 ACTION_BODY(end) {
-    (void)arguments;
     (void)count;
     stop_with(VM_REQUEST_NONE);
+    vm.stop = arguments->integer != 0; // NOEND: not even the end
 }
 
 ACTION_BODY(run) {

@@ -19,6 +19,7 @@
 #include "number_text.h"
 #include "program.h"
 #include "program_storage.h"
+#include "symbols.h"
 #include "vm.h"
 #include "words.h"
 
@@ -164,14 +165,47 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
     return error;
 }
 
+static struct {
+    const char *text;
+    size_t length;
+    const uint8_t *code;
+} line;
+
+static void compile_line(void) {
+    line.code = compiler_line(line.text, line.length);
+}
+
+// The program has come to its END: its SUB MM.END has the last word.
+static err_t run_end_routine(void (*on_error)(void)) {
+    static const char name[] = "MM.END";
+    line.text = name;
+    line.length = sizeof name - 1;
+    if (symbols_find(SYMBOLS_ROUTINE, 0, line.text, line.length) == NULL) {
+        return ERR_OK;
+    }
+    uint8_t *scratch = memory.scratch;
+    err_t error = ERR_NO_MEMORY;
+    if (errors_try(compile_line) == ERRORS_NONE) {
+        error = run(line.code, on_error);
+    } else {
+        print_error(err_message());
+    }
+    memory.scratch = scratch;
+    return error;
+}
+
 static err_t run_program(void) {
-    for (;;) {                  // a program may say RUN
+    void (*on_error)(void) = config->on_error != NULL ? config->on_error : nothing;
+    for (;;) { // a program may say RUN
         channels_end_program(); // those the prompt has opened
         const uint8_t *code = program_prepare();
         if (code == NULL) {
             return ERR_OK;
         }
-        err_t error = run(code, config->on_error != NULL ? config->on_error : nothing);
+        err_t error = run(code, on_error);
+        if (error == ERR_OK && vm.at_end) {
+            error = run_end_routine(on_error);
+        }
         channels_end_program();
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
@@ -216,16 +250,6 @@ static void serve(vm_request_t request) {
     default:
         break;
     }
-}
-
-static struct {
-    const char *text;
-    size_t length;
-    const uint8_t *code;
-} line;
-
-static void compile_line(void) {
-    line.code = compiler_line(line.text, line.length);
 }
 
 static void execute_line(void) {

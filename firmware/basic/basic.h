@@ -112,7 +112,7 @@ typedef struct {
 
 typedef uint16_t basic_routine_t; // a SUB of the program, valid while it runs; 0: none
 
-// In the order in which they are served.
+// Those that wait are served in turn.
 enum {
     BASIC_EVENT_TICK1,
     BASIC_EVENT_TICK2,

@@ -22,6 +22,7 @@ typedef struct {
 static struct {
     basic_routine_t routines[BASIC_EVENTS];
     uint32_t raised; // bit n: event n
+    unsigned last;   // the event served last
     tick_t ticks[EVENTS_TICKS];
     // What the program gets back when the SUB under way ends.
     uint8_t *scratch;
@@ -190,17 +191,24 @@ static void enter(const symbols_routine_t *routine) {
     update_watch();
 }
 
+// In turn, so that an event whose SUB takes too long does not shut the others out.
+static unsigned next_event(void) {
+    uint32_t behind = events.raised & ~(bit(events.last) | (bit(events.last) - 1u));
+    return (unsigned)__builtin_ctz(behind != 0 ? behind : events.raised);
+}
+
 bool events_serve(void) {
     look();
     if (events.raised == 0) {
         return false;
     }
-    unsigned event = (unsigned)__builtin_ctz(events.raised); // the lowest number goes first
+    unsigned event = next_event();
     const symbols_t *symbol = memory_place(events.routines[event]);
     if (!has_room(symbol->routine)) {
         return false;
     }
     events.raised &= ~bit(event);
+    events.last = event;
     enter(symbol->routine);
     return true;
 }

@@ -61,9 +61,9 @@ static const struct {
     char letter;
     int key;
 } lettered[] = {
-    {'A', KEYS_UP},   {'B', KEYS_DOWN}, {'C', KEYS_RIGHT}, {'D', KEYS_LEFT},
-    {'F', KEYS_END},  {'H', KEYS_HOME}, {'M', KEYS_RETURN}, {'P', KEYS_F1},
-    {'Q', KEYS_F2},   {'R', KEYS_F3},   {'S', KEYS_F4},    {'Z', KEYS_BACK_TAB},
+    {'A', KEYS_UP},  {'B', KEYS_DOWN}, {'C', KEYS_RIGHT},  {'D', KEYS_LEFT},
+    {'F', KEYS_END}, {'H', KEYS_HOME}, {'M', KEYS_RETURN}, {'P', KEYS_F1},
+    {'Q', KEYS_F2},  {'R', KEYS_F3},   {'S', KEYS_F4},     {'Z', KEYS_BACK_TAB},
 };
 
 static int wait_byte(uint64_t until_us) {

@@ -27,7 +27,7 @@ const statements_row_t statements_table[] = {
     {"DO", statements_do, "DO [WHILE|UNTIL condition] ... LOOP [WHILE|UNTIL condition]", "Repeats"},
     {"ELSE", statements_else, NULL, NULL},
     {"ELSEIF", statements_elseif, NULL, NULL},
-    {"END", statements_end, "END", "Ends the program"},
+    {"END", statements_end, "END [NOEND]", "Ends the program; NOEND: without its SUB MM.END"},
     {"ENDIF", statements_endif, NULL, NULL},
     {"ERROR", statements_error, "ERROR [text$]", "Raises an error"},
     {"EXECUTE", statements_execute, "EXECUTE text$", "Carries out statements that a string holds"},

@@ -385,6 +385,7 @@ void statements_end(void) {
     } else if (lexer_is_word("SUB") || lexer_is_word("FUNCTION")) {
         statements_end_routine();
     } else {
-        emit_action(ACTIONS_END, 0);
+        emit_integer(lexer_take_word("NOEND"));
+        emit_action(ACTIONS_END, 1);
     }
 }

@@ -190,11 +190,11 @@ static bool wait_is_interrupted(uint64_t until_us) {
         if (console_break_pending()) {
             errors_break();
         }
+        if (hal_time_us() >= until_us) { // first: events that never cease must not hold it up
+            return false;
+        }
         if (events_watch != 0 && events_serve()) {
             return true;
-        }
-        if (hal_time_us() >= until_us) {
-            return false;
         }
         console_wait(events_next_us(until_us));
     }
@@ -230,6 +230,7 @@ static void loop(void) {
             }
             break;
         case OP_END:
+            vm.at_end = !vm.stop;
             return;
         case OP_FAIL:
             err_raise(ERR_ARGUMENT, "%.*s", pc[0], (const char *)pc + 1);
@@ -465,6 +466,7 @@ err_t vm_run(const uint8_t *code, bool *broken) {
     vm.locals = vm.operands = memory.values;
     vm.scratch_base = memory.scratch;
     vm.stop = false;
+    vm.at_end = false;
     vm.request = VM_REQUEST_NONE;
     *broken = false;
     for (;;) {

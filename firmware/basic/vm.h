@@ -45,6 +45,7 @@ typedef struct {
     vm_on_error_t on_error;
     unsigned skip_count; // statements that ON ERROR SKIP still covers
     bool stop;           // leave the loop after this statement
+    bool at_end;         // the code has come to its end, or to END
     vm_request_t request;
     char error_text[ERR_MESSAGE_SIZE]; // MM.ERRMSG$; empty: no error
     void (*background)(void);          // never NULL

@@ -36,10 +36,21 @@ void board_reset(void) {
 
 static void count_background(void) {
     board.backgrounds++;
+    if (board.on_background != NULL) {
+        board.on_background();
+    }
 }
 
 static void count_break(void) {
     board.breaks++;
+}
+
+static void count_clear(void) {
+    board.clears++;
+}
+
+static void count_error(void) {
+    board.errors++;
 }
 
 // Takes Ctrl-F while board.controllable, and says so.
@@ -65,6 +76,8 @@ void board_start(const basic_command_t *commands, size_t command_count,
         .function_count = function_count,
         .background = count_background,
         .on_break = count_break,
+        .on_clear = count_clear,
+        .on_error = count_error,
         .on_control = take_control,
     };
     basic_start(&state.config);

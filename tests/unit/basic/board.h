@@ -30,17 +30,20 @@ const char *board_session(const char *text);
 
 typedef struct {
     uint64_t time_us;
-    uint64_t blocked_until_us; // the terminal takes no output before
-    bool ticking;              // motion runs: the flash is busy
-    unsigned writes;           // calls of hal_console_write() that took something
-    unsigned backgrounds;      // calls of the background hook
-    unsigned breaks;           // calls of on_break
-    bool controllable;         // there is something that Ctrl-F acts on
-    unsigned controls;         // times Ctrl-F did
-    uint64_t control_us;       // when it last did
-    unsigned control_writes;   // writes until then
-    unsigned hold_at_write;    // the terminal sends Ctrl-F when it gets this write
-    bool piped;                // input is no terminal
+    uint64_t blocked_until_us;   // the terminal takes no output before
+    bool ticking;                // motion runs: the flash is busy
+    unsigned writes;             // calls of hal_console_write() that took something
+    unsigned backgrounds;        // calls of the background hook
+    void (*on_background)(void); // what it does besides; NULL: nothing
+    unsigned breaks;             // calls of on_break
+    unsigned clears;             // calls of on_clear
+    unsigned errors;             // calls of on_error
+    bool controllable;           // there is something that Ctrl-F acts on
+    unsigned controls;           // times Ctrl-F did
+    uint64_t control_us;         // when it last did
+    unsigned control_writes;     // writes until then
+    unsigned hold_at_write;      // the terminal sends Ctrl-F when it gets this write
+    bool piped;                  // input is no terminal
     unsigned statements;
     void (*on_write)(const uint8_t *bytes, size_t size); // somebody listens; NULL: nobody
     int fail_program_after; // pages until programming the flash fails, -1: never
