@@ -1,6 +1,7 @@
-// DIM, CONST and INC at run time. Context: main loop.
+// DIM, REDIM, ERASE, CONST, INC and CAT at run time. Context: main loop.
 #include "actions.h"
 #include "arith.h"
+#include "arrays.h"
 #include "errors.h"
 #include "variables.h"
 
@@ -14,6 +15,23 @@ void actions_dim(value_t *arguments, unsigned count) {
     }
     uint16_t variable = (uint16_t)arguments[dimensions + 2].integer;
     variables_declare(variable, type, (unsigned)length, arguments, dimensions);
+}
+
+// sizes ..., type or VALUE_NONE, length or 0, variable, preserve
+void actions_redim(value_t *arguments, unsigned count) {
+    unsigned dimensions = count - 4;
+    const value_t *rest = arguments + dimensions;
+    int64_t length = value_to_integer(&rest[1]);
+    if (length < 0 || length > VALUE_STRING_MAX) {
+        errors_fail(ERR_ARRAY_SIZE);
+    }
+    arrays_redim((uint16_t)rest[2].integer, (uint8_t)rest[0].integer, (unsigned)length, arguments,
+                 dimensions, value_is_true(&rest[3]));
+}
+
+void actions_erase(value_t *arguments, unsigned count) {
+    (void)count;
+    arrays_erase((uint16_t)arguments->integer);
 }
 
 // variable, index, value
@@ -56,4 +74,12 @@ void actions_inc(value_t *arguments, unsigned count) {
     value_fetch(&sum[0]);
     arith_binary(OP_ADD, sum);
     value_write(&arguments[0], &sum[0]);
+}
+
+// reference, text
+void actions_cat(value_t *arguments, unsigned count) {
+    if (arguments[0].type != VALUE_STRING_REF) {
+        errors_fail(ERR_EXPECTED_STRING);
+    }
+    actions_inc(arguments, count);
 }

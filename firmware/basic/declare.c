@@ -56,9 +56,8 @@ static void compile_values(uint16_t variable, bool is_array) {
     lexer_expect(')');
 }
 
-// The sizes, the type and the length, as ACTIONS_DIM gets them. Returns how many sizes there are.
-static unsigned compile_shape(const lexer_token_t *name, uint8_t list_type, uint8_t *said,
-                              uint8_t *type) {
+// `(sizes)` if they are there, and AS type. Returns how many sizes there are.
+static unsigned compile_sizes(const lexer_token_t *name, uint8_t list_type, uint8_t *said) {
     unsigned dimensions = 0;
     *said = agreed(lexer_suffix_type(name->suffix), list_type, name);
     if (lexer_is('(')) {
@@ -70,16 +69,27 @@ static unsigned compile_shape(const lexer_token_t *name, uint8_t list_type, uint
     if (lexer_take_word("AS")) {
         *said = agreed(*said, declare_type_at_hand(), name);
     }
+    return dimensions;
+}
+
+static void compile_length(int64_t otherwise) {
+    if (lexer_take_word("LENGTH")) {
+        expressions_compile_before_equals();
+    } else {
+        emit_integer(otherwise);
+    }
+}
+
+// The sizes, the type and the length, as ACTIONS_DIM gets them.
+static unsigned compile_shape(const lexer_token_t *name, uint8_t list_type, uint8_t *said,
+                              uint8_t *type) {
+    unsigned dimensions = compile_sizes(name, list_type, said);
     *type = *said != VALUE_NONE ? *said : names_default_type();
     if (*type == VALUE_NONE) {
         errors_fail(ERR_NO_TYPE);
     }
     emit_integer(*type);
-    if (lexer_take_word("LENGTH")) {
-        expressions_compile_before_equals();
-    } else {
-        emit_integer(VALUE_STRING_MAX);
-    }
+    compile_length(VALUE_STRING_MAX);
     return dimensions;
 }
 
@@ -116,5 +126,31 @@ void declare_compile(declare_kind_t kind) {
     uint8_t list_type = take_type();
     do {
         compile_one(kind, list_type);
+    } while (lexer_take(','));
+}
+
+// What ACTIONS_REDIM gets: the sizes, the type or VALUE_NONE, the length or 0, the variable, PRESERVE.
+static void compile_one_again(uint8_t list_type, bool preserve) {
+    lexer_token_t name = *lexer_now();
+    if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length)) {
+        errors_fail(ERR_SYNTAX);
+    }
+    uint16_t variable = expressions_compile_name();
+    uint8_t said;
+    unsigned dimensions = compile_sizes(&name, list_type, &said);
+    if (dimensions == 0) {
+        errors_fail(ERR_ARRAY_DIMENSIONS);
+    }
+    emit_integer(said);
+    compile_length(0);
+    emit_integer(variable);
+    emit_integer(preserve);
+    emit_action(ACTIONS_REDIM, dimensions + 4);
+}
+
+void declare_compile_again(bool preserve) {
+    uint8_t list_type = take_type();
+    do {
+        compile_one_again(list_type, preserve);
     } while (lexer_take(','));
 }

@@ -355,9 +355,17 @@ unsigned expressions_compile_arguments(int closing) {
     return count;
 }
 
-void expressions_compile_reference(void) {
+static void compile_reference(bool arrays) {
     if (lexer_now()->kind != LEXER_NAME) {
         errors_fail(ERR_SYNTAX);
     }
-    compile_variable(true, false);
+    compile_variable(true, arrays);
+}
+
+void expressions_compile_reference(void) {
+    compile_reference(false);
+}
+
+void expressions_compile_reference_or_array(void) {
+    compile_reference(true);
 }

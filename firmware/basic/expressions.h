@@ -28,6 +28,9 @@ unsigned expressions_compile_arguments(int closing);
 // A variable or element to write to, as a reference on the stack.
 void expressions_compile_reference(void);
 
+// The same, or name() for a whole array.
+void expressions_compile_reference_or_array(void);
+
 // Forgets the nesting an error left.
 void expressions_start(void);
 

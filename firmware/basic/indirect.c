@@ -42,8 +42,8 @@ static void enter(indirect_kind_t kind, const symbols_routine_t *mark) {
     vm_frame_t *frame = calls_new_frame();
     uint8_t *scratch = memory.scratch;
     const uint8_t *code = compiler_text(text->text, text->length, kind);
-    *frame = (vm_frame_t){vm.pc,   vm.statement,    vm.locals, vm.operands,
-                          scratch, vm.scratch_base, mark};
+    *frame =
+        (vm_frame_t){vm.pc, vm.statement, vm.locals, vm.operands, scratch, vm.scratch_base, mark};
     vm.depth++;
     vm.scratch_base = memory.scratch;
     vm.pc = code;

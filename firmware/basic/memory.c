@@ -11,6 +11,8 @@
 
 memory_t memory;
 
+static uint32_t first_hole; // offset of the lowest hole in the heap, 0: none
+
 static uint8_t *align_up(uint8_t *place) {
     return place + (ALIGNMENT - (uintptr_t)place % ALIGNMENT) % ALIGNMENT;
 }
@@ -32,6 +34,7 @@ void memory_start(void *arena, size_t size) {
 void memory_reset(uint8_t *floor) {
     memory.heap = align_up(floor);
     memory.scratch = memory.ceiling = memory.top;
+    first_hole = 0;
 }
 
 void memory_settle(void) {
@@ -42,8 +45,83 @@ void memory_settle(void) {
     memory.ceiling = memory.scratch - MEMORY_PROMPT_RESERVE;
 }
 
+// ---- Holes in the heap ---------------------------------------------------------------------------
+
+typedef struct {
+    uint32_t next; // offset of the next hole above, 0: none
+    uint32_t size; // bytes, of which these are the first eight
+} hole_t;
+
+static hole_t *hole_at(uint32_t offset) {
+    return (hole_t *)(void *)(memory.base + offset);
+}
+
+// The first hole that is large enough gives its lower end. NULL: none is.
+static uint8_t *take_hole(size_t size) {
+    for (uint32_t *link = &first_hole; *link != 0; link = &hole_at(*link)->next) {
+        hole_t *hole = hole_at(*link);
+        if (hole->size >= size) {
+            uint8_t *place = (uint8_t *)hole;
+            hole_t rest = {hole->next, hole->size - (uint32_t)size};
+            if (rest.size == 0) {
+                *link = rest.next;
+            } else {
+                *link += (uint32_t)size;
+                *hole_at(*link) = rest;
+            }
+            return place;
+        }
+    }
+    return NULL;
+}
+
+static void join_with_next(hole_t *hole) {
+    if (hole->next != 0 && memory_offset(hole) + hole->size == hole->next) {
+        const hole_t *next = hole_at(hole->next);
+        hole->size += next->size;
+        hole->next = next->next;
+    }
+}
+
+// A hole at the end of the heap is none.
+static void trim_heap(void) {
+    for (uint32_t *link = &first_hole; *link != 0; link = &hole_at(*link)->next) {
+        if (memory.base + *link + hole_at(*link)->size == memory.heap) {
+            memory.heap = memory.base + *link;
+            *link = 0;
+            return;
+        }
+    }
+}
+
+void memory_release(void *place, size_t size) {
+    uint32_t offset = memory_offset(place);
+    uint32_t *link = &first_hole;
+    hole_t *below = NULL;
+    while (*link != 0 && *link < offset) {
+        below = hole_at(*link);
+        link = &below->next;
+    }
+    hole_t *hole = place;
+    *hole = (hole_t){*link, (uint32_t)((size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT)};
+    *link = offset;
+    join_with_next(hole);
+    if (below != NULL) {
+        join_with_next(below);
+    }
+    trim_heap();
+}
+
+// ---- Taking --------------------------------------------------------------------------------------
+
 // Takes `size` bytes of the heap.
 static uint8_t *take_heap(size_t size) {
+    if (first_hole != 0 && size < HANDLES_SIZE) {
+        uint8_t *hole = take_hole((size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+        if (hole != NULL) {
+            return hole;
+        }
+    }
     size_t room = memory_free();
     uint8_t *place = memory.heap;
     if (size > room || size + ALIGNMENT > room || place + size + ALIGNMENT > memory.ceiling) {

@@ -1,4 +1,4 @@
-// CONST, INC, DATA, READ, RESTORE, DIM and REM. Context: main loop, while compiling.
+// DIM, REDIM, ERASE, CONST, INC, CAT, DATA, READ, RESTORE and REM. Context: main loop, while compiling.
 #include "compiler.h"
 #include "declare.h"
 #include "emit.h"
@@ -60,11 +60,48 @@ void statements_data(void) {
     emit_text(start, (size_t)(behind - start));
 }
 
+void statements_cat(void) {
+    expressions_compile_reference();
+    lexer_expect(',');
+    expressions_compile();
+    emit_action(ACTIONS_CAT, 2);
+}
+
+// SAVE and RESTORE keep and bring back the place in the DATA.
 void statements_read(void) {
+    if (lexer_take_word("SAVE")) {
+        emit_action(ACTIONS_READ_SAVE, 0);
+        return;
+    }
+    if (lexer_take_word("RESTORE")) {
+        emit_action(ACTIONS_READ_RESTORE, 0);
+        return;
+    }
     do {
-        expressions_compile_reference();
+        expressions_compile_reference_or_array();
         emit_action(ACTIONS_READ, 1);
     } while (lexer_take(','));
+}
+
+void statements_erase(void) {
+    do {
+        if (lexer_now()->kind != LEXER_NAME) {
+            errors_fail(ERR_SYNTAX);
+        }
+        uint16_t variable = expressions_compile_name();
+        if (variable == CODE_LOCAL_FLAG) { // the FUNCTION's value
+            errors_fail(ERR_INVALID_HERE);
+        }
+        if (lexer_take('(')) {
+            lexer_expect(')');
+        }
+        emit_integer(variable);
+        emit_action(ACTIONS_ERASE, 1);
+    } while (lexer_take(','));
+}
+
+void statements_redim(void) {
+    declare_compile_again(lexer_take_word("PRESERVE"));
 }
 
 void statements_restore(void) {

@@ -8,6 +8,7 @@
 #include "names.h"
 #include "symbols.h"
 
+#define SIZE_MAX_OF_ARRAY (1u << 24) // bytes; more than any memory has
 #define UPPER_MAX 131067 // highest bound of an array's dimension; memory ends long before
 
 static bool is_local(uint16_t variable) {
@@ -205,6 +206,14 @@ void variables_check_type(uint16_t variable, uint8_t type) {
     }
 }
 
+size_t variables_size(const variables_array_t *array) {
+    uint64_t size = (uint64_t)array->count * variables_element_size(array);
+    if (size > SIZE_MAX_OF_ARRAY) {
+        errors_fail(ERR_NO_MEMORY);
+    }
+    return (size_t)size;
+}
+
 static uint32_t measure(variables_array_t *array, const value_t *bounds, unsigned dimensions) {
     uint32_t count = 1;
     for (unsigned i = 0; i < dimensions; i++) {
@@ -223,12 +232,7 @@ static uint32_t measure(variables_array_t *array, const value_t *bounds, unsigne
 }
 
 static void declare_array(uint16_t variable, variables_array_t *shape) {
-    uint64_t size = (uint64_t)shape->count *
-                    (shape->type == VALUE_STRING ? shape->capacity + 1u : sizeof(int64_t));
-    if (size > memory_free()) {
-        errors_fail(ERR_NO_MEMORY);
-    }
-    variables_array_t *array = allocate(variable, sizeof *array + (size_t)size);
+    variables_array_t *array = allocate(variable, sizeof *array + variables_size(shape));
     uint8_t *elements = (uint8_t *)(array + 1);
     *array = *shape;
     array->elements = elements;
@@ -249,8 +253,8 @@ static bool renew_local(const value_t *slot, const variables_array_t *shape) {
         variables_array_t *array = slot->data;
         if (array->count == shape->count && array->type == shape->type &&
             array->capacity == shape->capacity) {
-            size_t size = array->type == VALUE_STRING ? array->capacity + 1u : sizeof(int64_t);
-            memset(array->elements, 0, array->count * size);
+            memset(array->elements, 0, variables_size(array));
+            array->base = shape->base;
             memcpy(array->extent, shape->extent, sizeof array->extent);
             return true;
         }
@@ -258,13 +262,19 @@ static bool renew_local(const value_t *slot, const variables_array_t *shape) {
     return false;
 }
 
+void variables_shape(variables_array_t *shape, uint8_t type, unsigned capacity,
+                     const value_t *bounds, unsigned dimensions) {
+    *shape = (variables_array_t){.dimensions = (uint8_t)dimensions, .base = vm.base};
+    shape->type = type;
+    shape->capacity = (uint16_t)capacity;
+    shape->count = measure(shape, bounds, dimensions);
+}
+
 void variables_declare(uint16_t variable, uint8_t type, unsigned capacity, const value_t *bounds,
                        unsigned dimensions) {
     value_t *slot = variables_slot(variable);
-    variables_array_t shape = {.dimensions = (uint8_t)dimensions, .base = vm.base};
-    shape.type = type;
-    shape.capacity = (uint16_t)capacity;
-    shape.count = measure(&shape, bounds, dimensions);
+    variables_array_t shape;
+    variables_shape(&shape, type, capacity, bounds, dimensions);
     if (is_local(variable) && renew_local(slot, &shape)) {
         return;
     }

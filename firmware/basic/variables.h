@@ -51,6 +51,16 @@ variables_array_t *variables_array(uint16_t variable);
 // The variable has this type, or does not exist yet and gets it. Error: another type.
 void variables_check_type(uint16_t variable, uint8_t type);
 
+// Bytes of one element, and of all. Error: not enough memory.
+static inline unsigned variables_element_size(const variables_array_t *array) {
+    return array->type == VALUE_STRING ? array->capacity + 1u : (unsigned)sizeof(int64_t);
+}
+size_t variables_size(const variables_array_t *array);
+
+// Fills in what an array with these bounds is, all but its elements. Error: dimensions.
+void variables_shape(variables_array_t *shape, uint8_t type, unsigned capacity,
+                     const value_t *bounds, unsigned dimensions);
+
 // Declares: a scalar (dimensions == 0) or an array; `capacity` is that of strings.
 // Errors: array size, not enough memory.
 void variables_declare(uint16_t variable, uint8_t type, unsigned capacity, const value_t *bounds,
