@@ -25,7 +25,14 @@ extern const actions_run_t actions_table[ACTIONS_COUNT];
 void actions_data_reset(uint32_t first);
 
 // What OPTION sets, for compiling and running; the numbers stand for themselves in actions_option().
-enum { ACTIONS_OPTION_EXPLICIT, ACTIONS_OPTION_DEFAULT, ACTIONS_OPTION_BASE };
+enum {
+    ACTIONS_OPTION_EXPLICIT,
+    ACTIONS_OPTION_DEFAULT,
+    ACTIONS_OPTION_BASE,
+    ACTIONS_OPTION_ESCAPE,
+    ACTIONS_OPTION_ANGLE,
+    ACTIONS_OPTION_CONTINUATION,
+};
 enum { ACTIONS_ERROR_ABORT, ACTIONS_ERROR_IGNORE, ACTIONS_ERROR_SKIP, ACTIONS_ERROR_CLEAR };
 
 #endif

@@ -10,6 +10,7 @@
 #include "help.h"
 #include "memory.h"
 #include "program.h"
+#include "source_lines.h"
 #include "vm.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
@@ -81,6 +82,15 @@ ACTION_BODY(option) {
         break;
     case ACTIONS_OPTION_DEFAULT:
         vm.default_type = (uint8_t)value;
+        break;
+    case ACTIONS_OPTION_ESCAPE:
+        vm.escapes = value != 0;
+        break;
+    case ACTIONS_OPTION_ANGLE:
+        vm.degrees = value != 0;
+        break;
+    case ACTIONS_OPTION_CONTINUATION:
+        source_lines_join(value != 0);
         break;
     default:
         if (value != 0 && value != 1) {

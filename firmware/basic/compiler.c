@@ -13,17 +13,17 @@
 #include "lexer.h"
 #include "memory.h"
 #include "names.h"
+#include "source_lines.h"
 #include "statements.h"
 #include "symbols.h"
 #include "vm.h"
 #include "words.h"
 
-#define LINE_MAX 255
 #define STATEMENT_SIZE 5 // OP_STATEMENT with its operands
 #define CODE_PER_CHARACTER 10
 #define CODE_AT_LEAST 96
 // A line of 255 characters; longer code is "too complex".
-#define LINE_CODE_SIZE (LINE_MAX * CODE_PER_CHARACTER)
+#define LINE_CODE_SIZE (SOURCE_LINES_MAX * CODE_PER_CHARACTER)
 #define LINE_NUMBER_DIGITS 5
 
 static struct {
@@ -31,7 +31,6 @@ static struct {
     uint32_t statement;
     uint32_t last_data; // operand of the last DATA, to be told where the next one is
     uint32_t first_data;
-    bool in_comment; // between /* and */
     bool loose;
 } compiler;
 
@@ -232,9 +231,10 @@ static const char *compile_label(const char *text, const char *end) {
 }
 
 static const char *line_start, *line_end; // of the line being compiled
+static bool line_too_long;
 
 static void compile_label_of_line(void) {
-    if (line_end - line_start > LINE_MAX) {
+    if (line_too_long) {
         errors_fail(ERR_LINE_TOO_LONG);
     }
     line_start = compile_label(line_start, line_end);
@@ -259,43 +259,15 @@ static void compile_line_of_program(void) {
     }
 }
 
-// Block comments; they start and end with a line.
-static bool is_comment(const char *text, const char *end) {
-    while (text < end && (*text == ' ' || *text == '\t')) {
-        text++;
-    }
-    bool comment = compiler.in_comment;
-    size_t length = (size_t)(end - text);
-    if (!comment && length >= 2 && memcmp(text, "/*", 2) == 0) {
-        comment = compiler.in_comment = true;
-        text += 2;
-    }
-    for (; comment && text + 1 < end; text++) {
-        if (text[0] == '*' && text[1] == '/') {
-            compiler.in_comment = false;
-        }
-    }
-    return comment;
-}
-
 static void each_line(const char *text, size_t length, void (*visit)(void)) {
-    const char *end = text + length;
-    compiler.in_comment = false;
-    compiler.line = 0;
-    while (text < end) {
-        const char *stop = memchr(text, '\n', (size_t)(end - text));
-        const char *next = stop != NULL ? stop + 1 : end;
-        stop = stop != NULL ? stop : end;
-        if (stop > text && stop[-1] == '\r') {
-            stop--;
-        }
-        compiler.line++;
-        if (!is_comment(text, stop)) {
-            line_start = text;
-            line_end = stop;
-            visit();
-        }
-        text = next;
+    source_line_t line;
+    source_lines_start(text, length);
+    while (source_lines_next(&line)) {
+        compiler.line = line.number;
+        line_start = line.text;
+        line_end = line.end;
+        line_too_long = line.too_long;
+        visit();
     }
 }
 
@@ -334,6 +306,7 @@ const uint8_t *compiler_program(const char *text, size_t length) {
     symbols_set_program_mode(true);
     emit_start_program();
     names_start(text);
+    lexer_set_escapes(false);
     blocks_start(memory.values);
     names_set_default_type(VALUE_FLOAT);
     uint32_t start = emit_here();
@@ -358,6 +331,7 @@ static uint8_t *start_loose(const char *text, size_t length, size_t code_size, v
     emit_start_line(code, code_size);
     blocks_start(stack);
     names_set_default_type(vm.default_type);
+    lexer_set_escapes(vm.escapes);
     expressions_start();
     lexer_start(text, text + length);
     return code;

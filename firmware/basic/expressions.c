@@ -236,6 +236,13 @@ static void compile_name(void) {
     compile_variable(false, false);
 }
 
+// Not inlined: its buffer would lie on the C stack once for each parenthesis.
+__attribute__((noinline)) void expressions_compile_text(void) {
+    char text[VALUE_STRING_MAX];
+    emit_string(text, lexer_text(text));
+    lexer_next();
+}
+
 static void compile_prefix_operator(code_op_t op) {
     lexer_next();
     if (op == OP_NEGATE && lexer_now()->kind == LEXER_NUMBER) {
@@ -262,8 +269,7 @@ static void compile_operand(void) {
         emit_constant(&token->value);
         lexer_next();
     } else if (token->kind == LEXER_STRING) {
-        emit_string(token->text, token->length);
-        lexer_next();
+        expressions_compile_text();
     } else if (lexer_is('-')) {
         compile_prefix_operator(OP_NEGATE);
     } else if (lexer_is('+')) {

@@ -12,6 +12,9 @@ void expressions_compile(void);
 // The same, but an = behind it does not belong to it.
 void expressions_compile_before_equals(void);
 
+// The string at hand, its escapes replaced; gone past.
+void expressions_compile_text(void);
+
 // An argument of a SUB or FUNCTION: a variable alone is passed by reference.
 void expressions_compile_argument(void);
 

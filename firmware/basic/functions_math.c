@@ -1,4 +1,4 @@
-// Functions of numbers. Context: main loop.
+// Functions of numbers, but for angles. Context: main loop.
 #include <math.h>
 
 #include "errors.h"
@@ -6,8 +6,6 @@
 
 #define FUNCTION(name) void functions_##name(value_t *arguments, unsigned count, value_t *result)
 #define UNUSED_COUNT() (void)count
-
-static const double pi = 3.14159265358979323846;
 
 static void set_checked(value_t *result, double number) {
     if (!isfinite(number)) {
@@ -75,64 +73,6 @@ FUNCTION(log) {
 FUNCTION(exp) {
     UNUSED_COUNT();
     set_checked(result, exp(arguments->number));
-}
-
-FUNCTION(sin) {
-    UNUSED_COUNT();
-    value_set_number(result, sin(arguments->number));
-}
-
-FUNCTION(cos) {
-    UNUSED_COUNT();
-    value_set_number(result, cos(arguments->number));
-}
-
-FUNCTION(tan) {
-    UNUSED_COUNT();
-    set_checked(result, tan(arguments->number));
-}
-
-FUNCTION(atn) {
-    UNUSED_COUNT();
-    value_set_number(result, atan(arguments->number));
-}
-
-FUNCTION(atan2) {
-    UNUSED_COUNT();
-    value_set_number(result, atan2(arguments[0].number, arguments[1].number));
-}
-
-static double in_unit_range(const value_t *argument) {
-    if (fabs(argument->number) > 1.0) {
-        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
-    }
-    return argument->number;
-}
-
-FUNCTION(asin) {
-    UNUSED_COUNT();
-    value_set_number(result, asin(in_unit_range(arguments)));
-}
-
-FUNCTION(acos) {
-    UNUSED_COUNT();
-    value_set_number(result, acos(in_unit_range(arguments)));
-}
-
-FUNCTION(pi) {
-    UNUSED_COUNT();
-    (void)arguments;
-    value_set_number(result, pi);
-}
-
-FUNCTION(rad) {
-    UNUSED_COUNT();
-    value_set_number(result, arguments->number * pi / 180.0);
-}
-
-FUNCTION(deg) {
-    UNUSED_COUNT();
-    set_checked(result, arguments->number * 180.0 / pi);
 }
 
 FUNCTION(max) {

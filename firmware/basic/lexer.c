@@ -5,12 +5,15 @@
 
 #include "base/base.h"
 #include "errors.h"
+#include "escapes.h"
 #include "number_text.h"
+#include "source_lines.h"
 
 static struct {
     const char *end;
     lexer_token_t now;
     bool else_ends;
+    bool escapes;
 } lexer;
 
 bool lexer_is_name_start(char c) {
@@ -51,10 +54,12 @@ static void read_number(const char *p) {
 static void read_string(const char *p) {
     lexer.now.kind = LEXER_STRING;
     lexer.now.text = p + 1;
-    const char *quote = memchr(p + 1, '"', (size_t)(lexer.end - p - 1));
-    const char *stop = quote != NULL ? quote : lexer.end;
+    const char *stop = p + 1;
+    while (stop < lexer.end && *stop != '"') {
+        stop += lexer.escapes && *stop == '\\' && stop + 1 < lexer.end ? 2 : 1;
+    }
     lexer.now.length = (size_t)(stop - (p + 1));
-    lexer.now.behind = quote != NULL ? quote + 1 : lexer.end;
+    lexer.now.behind = stop < lexer.end && *stop == '"' ? stop + 1 : stop;
 }
 
 static void read_symbol(const char *p) {
@@ -73,10 +78,22 @@ static void read_symbol(const char *p) {
     }
 }
 
-static void read_token(const char *p) {
-    while (p < lexer.end && (*p == ' ' || *p == '\t')) {
-        p++;
+// Blanks, and the joints between lines that are one.
+static const char *skip_blanks(const char *p) {
+    while (p < lexer.end) {
+        if (source_lines_is_joint(p, lexer.end)) {
+            p = (const char *)memchr(p, '\n', (size_t)(lexer.end - p)) + 1;
+        } else if (*p == ' ' || *p == '\t') {
+            p++;
+        } else {
+            break;
+        }
     }
+    return p;
+}
+
+static void read_token(const char *p) {
+    p = skip_blanks(p);
     lexer.now.text = p;
     if (p >= lexer.end || *p == '\'') {
         lexer.now.kind = LEXER_END;
@@ -104,6 +121,10 @@ void lexer_start(const char *text, const char *end) {
     read_token(text);
 }
 
+void lexer_set_escapes(bool on) {
+    lexer.escapes = on;
+}
+
 void lexer_go(const char *text) {
     read_token(text);
 }
@@ -120,6 +141,17 @@ void lexer_next(void) {
     if (lexer.now.kind != LEXER_END) {
         read_token(lexer.now.behind);
     }
+}
+
+size_t lexer_text(char *text) {
+    if (lexer.now.length > VALUE_STRING_MAX) {
+        errors_fail(ERR_STRING_TOO_LONG);
+    }
+    if (lexer.escapes) {
+        return escapes_replace(text, lexer.now.text, lexer.now.length);
+    }
+    memcpy(text, lexer.now.text, lexer.now.length);
+    return lexer.now.length;
 }
 
 bool lexer_is(int symbol) {

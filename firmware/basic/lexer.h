@@ -35,6 +35,13 @@ void lexer_start(const char *text, const char *end);
 const lexer_token_t *lexer_now(void);
 void lexer_next(void);
 
+// OPTION ESCAPE: whether a backslash in a string stands for something, see lexer_text().
+void lexer_set_escapes(bool on);
+
+// The text of the string at hand with its escapes replaced; `text` has room for VALUE_STRING_MAX.
+// Returns its length. Error: too long, an unknown escape.
+size_t lexer_text(char *text);
+
 // Puts the reader to `text`, a place in the same line.
 void lexer_go(const char *text);
 const char *lexer_line_end(void);

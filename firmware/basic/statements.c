@@ -61,8 +61,9 @@ const statements_row_t statements_table[] = {
     {"OPEN", statements_open, "OPEN name$ FOR INPUT|OUTPUT|APPEND|RANDOM AS [#]n",
      "Opens a file as a channel, 1 to 10"},
     {"OPTION", statements_option,
-     "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1 / DISPLAY lines [, columns]",
-     "Sets how variables are declared, and the size of the terminal"},
+     "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1 / ESCAPE / ANGLE DEGREES|RADIANS / "
+     "CONTINUATION LINES ON|OFF / DISPLAY lines [, columns]",
+     "Sets how a program is read and computes, and the size of the terminal"},
     {"PAUSE", statements_pause, "PAUSE milliseconds", "Waits"},
     {"PRINT", statements_print, "PRINT [#n,] value [;|, ...]",
      "Writes to the terminal or a channel; ? for short"},

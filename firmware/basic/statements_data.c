@@ -1,4 +1,6 @@
 // DIM, REDIM, ERASE, CONST, INC, CAT, DATA, READ, RESTORE and REM. Context: main loop, while compiling.
+#include <string.h>
+
 #include "compiler.h"
 #include "declare.h"
 #include "emit.h"
@@ -7,6 +9,7 @@
 #include "labels.h"
 #include "lexer.h"
 #include "names.h"
+#include "source_lines.h"
 #include "statements.h"
 #include "words.h"
 
@@ -41,6 +44,30 @@ void statements_inc(void) {
     emit_action(ACTIONS_INC, 2);
 }
 
+static void emit_data(const char *text, size_t length) {
+    emit_op(OP_DATA);
+    compiler_link_data();
+    emit_text(text, length);
+}
+
+// Items on several lines that are one: a DATA for each line, without the joints. An item cannot be broken.
+static void emit_joined_data(const char *text, const char *end) {
+    const char *start = text;
+    for (const char *p = text; p < end; p++) {
+        if (source_lines_is_joint(p, end)) {
+            const char *stop = p;
+            while (stop > start && (stop[-1] == ' ' || stop[-1] == '\t')) {
+                stop--;
+            }
+            stop -= stop > start && stop[-1] == ','; // it would open another, empty item
+            emit_data(start, (size_t)(stop - start));
+            p = memchr(p, '\n', (size_t)(end - p));
+            start = p + 1;
+        }
+    }
+    emit_data(start, (size_t)(end - start));
+}
+
 // The items stay text; READ cuts them.
 void statements_data(void) {
     if (compiler_is_loose()) {
@@ -55,9 +82,12 @@ void statements_data(void) {
         behind = lexer_now()->behind;
         lexer_next();
     }
-    emit_op(OP_DATA);
-    compiler_link_data();
-    emit_text(start, (size_t)(behind - start));
+    size_t length = (size_t)(behind - start);
+    if (memchr(start, '\n', length) != NULL) {
+        emit_joined_data(start, behind);
+    } else {
+        emit_data(start, length);
+    }
 }
 
 void statements_cat(void) {

@@ -42,8 +42,7 @@ void statements_print(void) {
 // ["prompt" ;|,] - a comma behind the prompt leaves the question mark out.
 static void compile_prompt(void) {
     if (lexer_now()->kind == LEXER_STRING) {
-        emit_string(lexer_now()->text, lexer_now()->length);
-        lexer_next();
+        expressions_compile_text();
         bool question = lexer_take(';');
         if (!question) {
             lexer_expect(',');

@@ -116,13 +116,52 @@ static void compile_default_type(void) {
     errors_fail(ERR_SYNTAX);
 }
 
-void statements_option(void) {
-    if (lexer_take_word("EXPLICIT")) {
-        bool off = lexer_take_word("OFF");
-        if (!off) {
-            lexer_take_word("ON");
+// ON|ENABLE or nothing: true; OFF|DISABLE: false.
+static bool take_switch(void) {
+    if (lexer_take_word("OFF") || lexer_take_word("DISABLE")) {
+        return false;
+    }
+    if (!lexer_take_word("ON")) {
+        lexer_take_word("ENABLE");
+    }
+    return true;
+}
+
+// How the text of a program is read. False: it is another option.
+static bool compile_text_option(void) {
+    if (lexer_take_word("ESCAPE")) {
+        bool on = take_switch();
+        lexer_set_escapes(on);
+        emit_option(ACTIONS_OPTION_ESCAPE, on);
+        return true;
+    }
+    if (lexer_take_word("CONTINUATION")) { // in a program source_lines.c has obeyed already
+        lexer_expect_word("LINES");
+        bool on = take_switch();
+        if (compiler_at_prompt()) {
+            emit_option(ACTIONS_OPTION_CONTINUATION, on);
         }
-        emit_option(ACTIONS_OPTION_EXPLICIT, !off);
+        return true;
+    }
+    return false;
+}
+
+static void compile_angle(void) {
+    bool degrees = lexer_take_word("DEGREES");
+    if (!degrees) {
+        lexer_expect_word("RADIANS");
+    }
+    emit_option(ACTIONS_OPTION_ANGLE, degrees);
+}
+
+void statements_option(void) {
+    if (compile_text_option()) {
+        return;
+    }
+    if (lexer_take_word("EXPLICIT")) {
+        emit_option(ACTIONS_OPTION_EXPLICIT, take_switch());
+    } else if (lexer_take_word("ANGLE")) {
+        compile_angle();
     } else if (lexer_take_word("DEFAULT")) {
         compile_default_type();
     } else if (lexer_take_word("BASE")) {

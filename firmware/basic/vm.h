@@ -42,6 +42,8 @@ typedef struct {
     uint8_t default_type; // OPTION DEFAULT; VALUE_NONE: must be said
     uint8_t base;         // OPTION BASE
     bool explicit_names;  // OPTION EXPLICIT
+    bool escapes;         // OPTION ESCAPE, for the prompt and EXECUTE
+    bool degrees;         // OPTION ANGLE DEGREES
     vm_on_error_t on_error;
     unsigned skip_count; // statements that ON ERROR SKIP still covers
     bool stop;           // leave the loop after this statement
