@@ -9,6 +9,7 @@
 #include "hal/hal.h"
 #include "help.h"
 #include "memory.h"
+#include "pager.h"
 #include "program.h"
 #include "source_lines.h"
 #include "vm.h"
@@ -155,31 +156,17 @@ ACTION_BODY(help) {
     help_print(arguments->text, arguments->length);
 }
 
-// True: go on; Ctrl-C and q end the list.
-static bool page_turned(void) {
-    console_print("PRESS ANY KEY ...");
-    int key;
-    while ((key = console_take()) < 0 && !console_break_pending() && !hal_end_of_input()) {
-        console_wait(UINT64_MAX);
-    }
-    bool go_on = key >= 0 && !console_break_pending() && (key | 0x20) != 'q';
-    console_print(go_on ? "\r\x1b[K" : "\r\n"); // the prompt always starts a line
-    return go_on;
-}
-
 ACTION_BODY(list) {
     (void)count;
-    bool all = value_is_true(arguments);
     const char *text = program_text();
     const char *end = text + program_length();
-    for (unsigned line = 1; text < end && !console_break_pending(); line++) {
+    pager_start(value_is_true(arguments));
+    while (text < end) {
         const char *stop = memchr(text, '\n', (size_t)(end - text));
         stop = stop != NULL ? stop : end;
-        console_write(text, (size_t)(stop - text));
-        console_new_line();
-        text = stop + 1;
-        if (!all && line % (console_rows() - 1) == 0 && text < end && !page_turned()) {
+        if (!pager_line(text, (size_t)(stop - text))) {
             return;
         }
+        text = stop + 1;
     }
 }

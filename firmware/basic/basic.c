@@ -102,7 +102,6 @@ static void show_waiting_notices(void) {
 // Whenever the console waits and every few statements; the product's part also at each statement.
 static void background(void) {
     show_waiting_notices();
-    channels_background();
     files_background();
     vm.background();
 }

@@ -23,7 +23,7 @@ typedef struct basic_device {
     // `text` is all of the name in OPEN. *handle is the device's own number for what it opened.
     err_t (*open)(basic_text_t text, basic_device_mode_t mode, int *handle);
 
-    // With an error it stays open and nothing is lost.
+    // The handle is free, whatever comes of it.
     err_t (*close)(int handle);
 
     // Sends. *took is how many bytes were taken; fewer than `size` without an error: there is no room just

@@ -9,9 +9,8 @@
 #include "lexer.h"
 
 #define TAB_WIDTH 8
-#define RETRY_US 50000u // until a file that could not be stored is tried again
-#define POLL_US 1000u   // until a stream is looked at again
-#define READ_SIZE 64    // bytes a line of a file is searched in
+#define POLL_US 1000u // until a stream is looked at again
+#define READ_SIZE 64  // bytes a line of a file is searched in
 
 typedef struct {
     const basic_device_t *device; // NULL: not open
@@ -23,8 +22,6 @@ typedef struct {
 static struct {
     const basic_config_t *config;
     channel_t open[CHANNELS_MAX];
-    channel_t ending[CHANNELS_MAX]; // of programs that are gone, still to be closed
-    uint64_t retry_us;              // when to try that again; 0: none waits
 } channels;
 
 void channels_start(const basic_config_t *config) {
@@ -81,62 +78,32 @@ void channels_open(unsigned number, basic_text_t name, basic_device_mode_t mode)
     channels.open[number - 1] = opened;
 }
 
-void channels_close(unsigned number) {
-    channel_t *channel = channel_of(number);
-    check(channel->device->close(channel->handle));
+static err_t close(channel_t *channel) {
+    const basic_device_t *device = channel->device;
     channel->device = NULL;
+    return device->close(channel->handle);
+}
+
+void channels_close(unsigned number) {
+    check(close(channel_of(number)));
 }
 
 void channels_close_open(void) {
     err_t error = ERR_OK;
     for (unsigned i = 0; i < CHANNELS_MAX; i++) {
-        channel_t *channel = &channels.open[i];
-        if (channel->device != NULL) {
-            err_t now = channel->device->close(channel->handle);
-            channel->device = now == ERR_OK ? NULL : channel->device;
-            error = error == ERR_OK ? now : error;
+        if (channels.open[i].device != NULL && error == ERR_OK) {
+            error = close(&channels.open[i]);
         }
     }
     check(error);
 }
 
-// Keeps what could not be closed. There is room: no more can be open at a time than the devices allow.
-static void keep_for_later(const channel_t *channel) {
-    for (unsigned i = 0; i < CHANNELS_MAX; i++) {
-        if (channels.ending[i].device == NULL) {
-            channels.ending[i] = *channel;
-            channels.retry_us = hal_time_us() + RETRY_US;
-            return;
-        }
-    }
-}
-
 void channels_end_program(void) {
     for (unsigned i = 0; i < CHANNELS_MAX; i++) {
-        channel_t *channel = &channels.open[i];
-        if (channel->device != NULL && channel->device->close(channel->handle) != ERR_OK) {
-            keep_for_later(channel);
-        }
-        channel->device = NULL;
-    }
-}
-
-void channels_background(void) {
-    if (channels.retry_us == 0 || hal_time_us() < channels.retry_us) {
-        return;
-    }
-    channels.retry_us = 0;
-    char message[ERR_MESSAGE_SIZE]; // of an error that is just being told
-    strcpy(message, err_message());
-    for (unsigned i = 0; i < CHANNELS_MAX; i++) {
-        channel_t *channel = &channels.ending[i];
-        if (channel->device != NULL) {
-            bool closed = channel->device->close(channel->handle) == ERR_OK;
-            channel->device = closed ? NULL : channel->device;
-            channels.retry_us = closed ? channels.retry_us : hal_time_us() + RETRY_US;
+        if (channels.open[i].device != NULL) {
+            close(&channels.open[i]);
         }
     }
-    err_raise(ERR_ARGUMENT, "%s", message);
 }
 
 // ---- Writing -------------------------------------------------------------------------------------

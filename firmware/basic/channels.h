@@ -19,13 +19,11 @@ unsigned channels_number(const value_t *value);
 void channels_open(unsigned number, basic_text_t name, basic_device_mode_t mode);
 void channels_close(unsigned number);
 
-// Closes all; the first error is raised when all others are closed.
+// Closes all up to the first that makes an error.
 void channels_close_open(void);
 
-// The same when a program starts or ends. Never an error: what cannot be stored just now (motion runs)
-// is kept and stored by channels_background() as soon as it can be.
+// Closes all when a program starts or ends; nobody is there to be told of an error.
 void channels_end_program(void);
-void channels_background(void);
 
 // Writes the text as a whole: an error means that nothing of it was taken. Ctrl-C ends the wait for a
 // device that has no room.
