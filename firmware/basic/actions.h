@@ -3,6 +3,7 @@
 #define BASIC_ACTIONS_H
 
 #include "value.h"
+#include "vm.h"
 
 typedef enum {
 #define ACTION(name, function) ACTIONS_##name,
@@ -20,6 +21,9 @@ typedef void (*actions_run_t)(value_t *arguments, unsigned count);
 
 // Indexed by actions_t.
 extern const actions_run_t actions_table[ACTIONS_COUNT];
+
+// Ends the program or line and says what the prompt is to do then (actions_system.c).
+void actions_stop_with(vm_request_t request);
 
 // DATA as READ sees it (actions_data.c).
 void actions_data_reset(uint32_t first);

@@ -19,8 +19,7 @@
 #define DISPLAY_ROWS_MIN 2
 #define DISPLAY_COLUMNS_MIN 20
 
-// Leaves the loop and says what the prompt is to do.
-static void stop_with(vm_request_t request) {
+void actions_stop_with(vm_request_t request) {
     vm.stop = true;
     vm.request = request;
     static const uint8_t end[] = {OP_END};
@@ -29,26 +28,26 @@ static void stop_with(vm_request_t request) {
 
 ACTION_BODY(end) {
     (void)count;
-    stop_with(VM_REQUEST_NONE);
+    actions_stop_with(VM_REQUEST_NONE);
     vm.stop = arguments->integer != 0; // NOEND: not even the end
 }
 
 ACTION_BODY(run) {
     (void)arguments;
     (void)count;
-    stop_with(VM_REQUEST_RUN);
+    actions_stop_with(VM_REQUEST_RUN);
 }
 
 ACTION_BODY(new) {
     (void)arguments;
     (void)count;
-    stop_with(VM_REQUEST_NEW);
+    actions_stop_with(VM_REQUEST_NEW);
 }
 
 ACTION_BODY(autosave) {
     (void)arguments;
     (void)count;
-    stop_with(VM_REQUEST_AUTOSAVE);
+    actions_stop_with(VM_REQUEST_AUTOSAVE);
 }
 
 ACTION_BODY(timer) {

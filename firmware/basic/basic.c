@@ -20,6 +20,7 @@
 #include "program.h"
 #include "program_storage.h"
 #include "symbols.h"
+#include "transfer.h"
 #include "vm.h"
 #include "words.h"
 
@@ -236,6 +237,10 @@ static void serve(vm_request_t request) {
         channels_end_program();
         program_clear();
         report(program_storage_save("", 0));
+        break;
+    case VM_REQUEST_RECEIVE:
+        channels_end_program();
+        report(transfer_receive_program());
         break;
     case VM_REQUEST_AUTOSAVE: {
         bool start = false;

@@ -145,6 +145,19 @@ static char type_of_argument(const functions_row_t *function, unsigned index) {
     return function->types[index < last ? index : last];
 }
 
+// A name with nothing behind it; with a $ it is a variable.
+static bool is_bare_word(void) {
+    const lexer_token_t *token = lexer_now();
+    if (token->kind != LEXER_NAME || token->suffix != 0) {
+        return false;
+    }
+    const char *start = token->text;
+    lexer_next();
+    bool bare = lexer_is(',') || lexer_is(')');
+    lexer_go(start);
+    return bare;
+}
+
 static void compile_function_argument(char type) {
     if (type == 'a') {
         compile_variable(false, true);
@@ -152,6 +165,11 @@ static void compile_function_argument(char type) {
     }
     if (type == 'c') {
         lexer_take('#');
+    }
+    if (type == 'w' && is_bare_word()) {
+        emit_string(lexer_now()->text, lexer_now()->length);
+        lexer_next();
+        return;
     }
     expressions_compile();
 }

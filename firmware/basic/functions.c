@@ -24,7 +24,10 @@ const functions_row_t functions_table[] = {
     {"CHR$", "i", 1, 1, functions_chr, "CHR$(code)"},
     {"CINT", "n", 1, 1, functions_cint, "CINT(number): nearest integer, halves away from zero"},
     {"COS", "f", 1, 1, functions_cos, "COS(radians)"},
+    {"CWD$", "", 0, 0, functions_cwd, "CWD$: the current folder"},
     {"DEG", "f", 1, 1, functions_deg, "DEG(radians): degrees"},
+    {"DIR$", "sw", 0, 2, functions_dir,
+     "DIR$(pattern$ [, ALL|DIR|FILE]): the first file; DIR$(): the next"},
     {"EOF", "c", 1, 1, functions_eof, "EOF([#]n): 1 if there is nothing left to read"},
     {"EVAL", "s", 1, 1, NULL, "EVAL(text$): value of the expression that the text holds"},
     {"EXP", "f", 1, 1, functions_exp, "EXP(number)"},
@@ -84,6 +87,7 @@ static void convert(value_t *argument, char type) {
     case 'c':
         value_set_integer(argument, channels_number(argument));
         break;
+    case 'w':
     case 's':
         if (argument->type != VALUE_STRING) {
             errors_fail(ERR_EXPECTED_STRING);

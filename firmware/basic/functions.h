@@ -13,7 +13,8 @@ typedef void (*functions_evaluate_t)(value_t *arguments, unsigned count, value_t
 typedef struct {
     const char *name;
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
-    // n either number, s string, v any value, a a whole array, c number of a channel.
+    // n either number, s string, v any value, a a whole array, c number of a channel,
+    // w a bare word or a string.
     const char *types;
     uint8_t least; // arguments
     uint8_t most;
@@ -77,6 +78,8 @@ FUNCTIONS_DECLARE(ucase)
 FUNCTIONS_DECLARE(val)
 FUNCTIONS_DECLARE(bound)
 FUNCTIONS_DECLARE(choice)
+FUNCTIONS_DECLARE(cwd)
+FUNCTIONS_DECLARE(dir)
 FUNCTIONS_DECLARE(eof)
 FUNCTIONS_DECLARE(input)
 FUNCTIONS_DECLARE(loc)

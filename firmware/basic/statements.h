@@ -23,7 +23,7 @@ bool statements_compile_other(void);
 void statements_abandon_routine(void);
 
 // statements_flow.c, statements_routine.c, statements_data.c, statements_io.c,
-// statements_channels.c, statements_system.c, statements_events.c
+// statements_channels.c, statements_files.c, statements_system.c, statements_events.c
 #define STATEMENTS_DECLARE(name) void statements_##name(void);
 STATEMENTS_DECLARE(if)
 STATEMENTS_DECLARE(elseif)
@@ -72,6 +72,14 @@ STATEMENTS_DECLARE(open)
 STATEMENTS_DECLARE(close)
 STATEMENTS_DECLARE(seek)
 STATEMENTS_DECLARE(flush)
+STATEMENTS_DECLARE(chdir)
+STATEMENTS_DECLARE(copy)
+STATEMENTS_DECLARE(files)
+STATEMENTS_DECLARE(kill)
+STATEMENTS_DECLARE(mkdir)
+STATEMENTS_DECLARE(rename)
+STATEMENTS_DECLARE(rmdir)
+STATEMENTS_DECLARE(xmodem)
 STATEMENTS_DECLARE(print_channel)
 STATEMENTS_DECLARE(input_channel)
 STATEMENTS_DECLARE(line_input_channel)

@@ -69,8 +69,14 @@ void statements_autosave(void) {
 
 void statements_list(void) {
     bool all = lexer_take_word("ALL");
-    emit_integer(all);
-    emit_action(ACTIONS_LIST, 1);
+    if (lexer_at_end()) {
+        emit_integer(all);
+        emit_action(ACTIONS_LIST, 1);
+    } else {
+        expressions_compile();
+        emit_integer(all);
+        emit_action(ACTIONS_LIST_FILE, 2);
+    }
 }
 
 void statements_memory(void) {

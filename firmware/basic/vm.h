@@ -14,7 +14,13 @@
 #define VM_FRAMES_MAX 128 // calls and GOSUBs under way
 
 // What the running statement leaves for the prompt to do once nothing runs any more.
-typedef enum { VM_REQUEST_NONE, VM_REQUEST_RUN, VM_REQUEST_NEW, VM_REQUEST_AUTOSAVE } vm_request_t;
+typedef enum {
+    VM_REQUEST_NONE,
+    VM_REQUEST_RUN,
+    VM_REQUEST_NEW,
+    VM_REQUEST_AUTOSAVE,
+    VM_REQUEST_RECEIVE
+} vm_request_t;
 
 typedef enum { VM_ERROR_ABORT, VM_ERROR_IGNORE, VM_ERROR_SKIP } vm_on_error_t;
 

@@ -288,6 +288,17 @@ err_t files_close(int number) {
     return close_now(handle);
 }
 
+// littlefs does not store a file that has met an error.
+void files_abandon(int number) {
+    handle_t *handle = &files.handles[number];
+    volume_call_t call = {.file = &handle->file};
+    handle->open = false;
+    handle->file.flags |= LFS_F_ERRED;
+    if (!is_lost(handle)) {
+        volume_read(do_close, &call, NULL);
+    }
+}
+
 void files_close_all(void) {
     for (int i = 0; i < FILES_OPEN_MAX; i++) {
         if (files.handles[i].open) {

@@ -45,6 +45,9 @@ err_t files_open(const char *path, files_mode_t mode, int *handle);
 err_t files_close(int handle);
 void files_close_all(void);
 
+// Closes it without what was written since it was opened or flushed.
+void files_abandon(int handle);
+
 // *got < size: the end of the file was met.
 err_t files_read(int handle, void *bytes, size_t size, size_t *got);
 

@@ -1,0 +1,30 @@
+// Names of files as a program gives them: paths, patterns, lists. Context: main loop.
+#ifndef BASIC_FILE_NAMES_H
+#define BASIC_FILE_NAMES_H
+
+#include <stdbool.h>
+
+#include "files/files.h"
+#include "value.h"
+
+// The value as a path, zero-terminated, valid until the statement ends. Error: no string, or a zero in it.
+const char *file_names_path(const value_t *value);
+
+bool file_names_is_pattern(const char *path);
+
+// "folder/*.nc" cut in two: the folder (kept until the statement ends) and the pattern, which is a part
+// of `path`.
+const char *file_names_split(const char *path, const char **pattern);
+
+// True if `name` fits: * is any text, ? any character, capitals do not matter.
+bool file_names_match(const char *pattern, const char *name);
+
+// Which entries a list takes.
+typedef enum { FILE_NAMES_FILES, FILE_NAMES_FOLDERS, FILE_NAMES_ALL } file_names_kind_t;
+
+// The entry of `folder` with the first name behind `after` ("": the very first) in the order of the
+// characters' codes that fits. False: there is none. Error: no such folder.
+bool file_names_next(const char *folder, const char *pattern, file_names_kind_t kind,
+                     const char *after, files_entry_t *entry);
+
+#endif
