@@ -1,5 +1,4 @@
 // FILES, KILL, RENAME, COPY, MKDIR, RMDIR, CHDIR, LIST file$, XMODEM at run time. Context: main loop.
-#include <stdio.h>
 #include <string.h>
 
 #include "actions.h"
@@ -56,8 +55,8 @@ static void kill_all(const char *path) {
         uint8_t *scratch = memory.scratch;
         char *victim = memory_text(length + 1 + FILES_NAME_MAX + 1);
         bool separated = strchr("/\\:", folder[length - 1]) != NULL;
-        snprintf(victim, length + 1 + FILES_NAME_MAX + 1, "%s%s%s", folder, separated ? "" : "/",
-                 entry.name);
+        format_text(victim, length + 1 + FILES_NAME_MAX + 1, "%s%s%s", folder, separated ? "" : "/",
+                    entry.name);
         check(files_remove(victim));
         memory.scratch = scratch;
         killed++;
@@ -137,10 +136,11 @@ ACTION_BODY(xmodem_send) {
 
 static bool list_entry(const files_entry_t *entry) {
     char line[FILES_NAME_MAX + 16];
-    int length = entry->is_folder
-                     ? snprintf(line, sizeof line, "%10s  %s", "<DIR>", entry->name)
-                     : snprintf(line, sizeof line, "%10u  %s", (unsigned)entry->size, entry->name);
-    return pager_line(line, (size_t)length);
+    size_t length =
+        entry->is_folder
+            ? format_text(line, sizeof line, "%10s  %s", "<DIR>", entry->name)
+            : format_text(line, sizeof line, "%10u  %s", (unsigned)entry->size, entry->name);
+    return pager_line(line, length);
 }
 
 static bool list_kind(const char *folder, const char *pattern, bool folders, unsigned *listed) {
@@ -162,10 +162,10 @@ static void list_summary(unsigned folders, unsigned listed) {
     uint32_t total, used;
     check(files_space(&total, &used));
     char line[80];
-    int length =
-        snprintf(line, sizeof line, "%u folder%s, %u file%s, %u bytes free", folders,
-                 folders == 1 ? "" : "s", listed, listed == 1 ? "" : "s", (unsigned)(total - used));
-    pager_line(line, (size_t)length);
+    int length = format_text(line, sizeof line, "%u folder%s, %u file%s, %u bytes free", folders,
+                             folders == 1 ? "" : "s", listed, listed == 1 ? "" : "s",
+                             (unsigned)(total - used));
+    pager_line(line, length);
 }
 
 // Folders first. The file system keeps its entries in the order of their names.

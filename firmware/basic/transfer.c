@@ -1,7 +1,6 @@
 // What XMODEM carries, and where to. Context: main loop.
 #include "transfer.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "console.h"
@@ -25,7 +24,7 @@ static struct {
 // The other side writes to the terminal's line; this shows that it is the prompt's again.
 static void report(const char *done) {
     char line[48];
-    snprintf(line, sizeof line, "%u bytes %s\r\n", (unsigned)transfer.length, done);
+    format_text(line, sizeof line, "%u bytes %s\r\n", (unsigned)transfer.length, done);
     console_fresh_line();
     console_print(line);
 }
