@@ -162,9 +162,9 @@ static void list_summary(unsigned folders, unsigned listed) {
     uint32_t total, used;
     check(files_space(&total, &used));
     char line[80];
-    int length = format_text(line, sizeof line, "%u folder%s, %u file%s, %u bytes free", folders,
-                             folders == 1 ? "" : "s", listed, listed == 1 ? "" : "s",
-                             (unsigned)(total - used));
+    size_t length = format_text(line, sizeof line, "%u folder%s, %u file%s, %u bytes free", folders,
+                                folders == 1 ? "" : "s", listed, listed == 1 ? "" : "s",
+                                (unsigned)(total - used));
     pager_line(line, length);
 }
 
