@@ -196,7 +196,7 @@ static err_t run_end_routine(void (*on_error)(void)) {
 
 static err_t run_program(void) {
     void (*on_error)(void) = config->on_error != NULL ? config->on_error : nothing;
-    for (;;) { // a program may say RUN
+    for (;;) {                  // a program may say RUN
         channels_end_program(); // those the prompt has opened
         const uint8_t *code = program_prepare();
         if (code == NULL) {
