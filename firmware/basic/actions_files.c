@@ -44,14 +44,14 @@ ACTION_BODY(rename) {
 
 // ---- KILL ----------------------------------------------------------------------------------------
 
-// One after the other, each looked for afresh: a removal ends a list.
+// The first, again and again: a removal ends a list.
 static void kill_all(const char *path) {
     const char *pattern;
     const char *folder = file_names_split(path, &pattern);
     size_t length = strlen(folder);
-    files_entry_t entry = {.name = ""};
+    files_entry_t entry;
     unsigned killed = 0;
-    while (file_names_next(folder, pattern, FILE_NAMES_FILES, entry.name, &entry)) {
+    while (file_names_next(folder, pattern, FILE_NAMES_FILES, "", &entry)) {
         uint8_t *scratch = memory.scratch;
         char *victim = memory_text(length + 1 + FILES_NAME_MAX + 1);
         bool separated = strchr("/\\:", folder[length - 1]) != NULL;
