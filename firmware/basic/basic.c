@@ -100,11 +100,13 @@ static void show_waiting_notices(void) {
     }
 }
 
-// Whenever the console waits and every few statements; the product's part also at each statement.
+// Whenever the console waits and every few statements.
 static void background(void) {
     show_waiting_notices();
     files_background();
-    vm.background();
+    if (config->background != NULL) {
+        config->background();
+    }
 }
 
 char *basic_format_number(char *buffer, size_t size, double value) {
@@ -274,7 +276,6 @@ static void execute_line(void) {
 
 void basic_start(const basic_config_t *new_config) {
     config = new_config;
-    vm.background = config->background != NULL ? config->background : nothing;
     vm.on_clear = config->on_clear != NULL ? config->on_clear : nothing;
     waiting.length = 0;
     console_start(background, config->on_control);

@@ -141,7 +141,7 @@ typedef struct {
     const basic_function_t *functions;
     size_t function_count;
     void (*background)(
-        void); // called at each statement and whenever the interpreter waits; NULL: none
+        void);              // called every few statements and whenever something waits; NULL: none
     void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
     // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL: none.
     void (*on_clear)(void);

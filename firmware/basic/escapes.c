@@ -45,8 +45,8 @@ static char read_code(const char *from, const char *digits, const char *end, uns
 static const char *replace_one(char *to, const char *from, const char *end) {
     static const char names[] = "abefnqrtv\\\"'";
     static const char bytes[] = "\a\b\x1b\f\n\"\r\t\v\\\"'";
-    const char *name = from < end ? strchr(names, *from | (*from >= 'A' && *from <= 'Z' ? 0x20 : 0))
-                                  : NULL;
+    const char *name =
+        from < end ? strchr(names, *from | (*from >= 'A' && *from <= 'Z' ? 0x20 : 0)) : NULL;
     if (name != NULL && *name != '\0') {
         *to = bytes[name - names];
         return from + 1;

@@ -51,8 +51,8 @@ FUNCTION(cos) {
 FUNCTION(tan) {
     UNUSED_COUNT();
     double angle = arguments->number;
-    set_checked(result, vm.degrees ? sine_of_degrees(angle, 0) / sine_of_degrees(angle, 1)
-                                   : tan(angle));
+    set_checked(result,
+                vm.degrees ? sine_of_degrees(angle, 0) / sine_of_degrees(angle, 1) : tan(angle));
 }
 
 // ---- To an angle ---------------------------------------------------------------------------------

@@ -96,8 +96,8 @@ static bool goes_on(const source_line_t *line) {
     while (last > line->text && is_blank(last[-1])) {
         last--;
     }
-    bool underscore = last > line->text && last[-1] == '_' &&
-                      (last - 1 == line->text || is_blank(last[-2]));
+    bool underscore =
+        last > line->text && last[-1] == '_' && (last - 1 == line->text || is_blank(last[-2]));
     const char *text = skip_blanks(line->text, line->end);
     if (!underscore || skip_word(text, line->end, "REM") != NULL) {
         return false;

@@ -10,9 +10,10 @@
 #define SOURCE_LINES_MAX 255 // characters
 
 typedef struct {
-    const char *text, *end; // joined lines still have their ends between them, which the lexer skips
-    unsigned number;        // of the first one, from 1
-    bool too_long;          // one of them
+    const char *text,
+        *end;        // joined lines still have their ends between them, which the lexer skips
+    unsigned number; // of the first one, from 1
+    bool too_long;   // one of them
 } source_line_t;
 
 // From the start of `text`.

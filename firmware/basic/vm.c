@@ -18,7 +18,7 @@
 #include "variables.h"
 
 // Statements between two looks for input of which the board has said nothing (what was left in its
-// buffers), and between two times that output is sent.
+// buffers), between two times that output is sent, and two turns of the background.
 #define POLL_EVERY 16
 
 #define PAUSE_MAX_MS 1e15
@@ -28,10 +28,8 @@ vm_t vm;
 static unsigned poll_countdown = POLL_EVERY;
 
 void vm_reset(void) {
-    void (*background)(void) = vm.background;
     void (*on_clear)(void) = vm.on_clear;
     memset(&vm, 0, sizeof vm);
-    vm.background = background;
     vm.on_clear = on_clear;
     events_clear();
     on_clear();
@@ -60,7 +58,6 @@ static void begin_statement(const uint8_t *statement) {
     if (input_came || --poll_countdown == 0) {
         attend();
     }
-    vm.background();
     if (vm.on_error == VM_ERROR_SKIP) {
         if (vm.skip_count == 0) {
             vm.on_error = VM_ERROR_ABORT;

@@ -56,7 +56,6 @@ typedef struct {
     bool at_end;         // the code has come to its end, or to END
     vm_request_t request;
     char error_text[ERR_MESSAGE_SIZE]; // MM.ERRMSG$; empty: no error
-    void (*background)(void);          // never NULL
     void (*on_clear)(void);            // never NULL
 } vm_t;
 

@@ -151,6 +151,20 @@ def statement_section(uf2: Path) -> Section:
     return section
 
 
+def goals_section(uf2: Path, missed: list[str]) -> Section:
+    section = Section("A BASIC program", ["", "cycles", "goal", "original"])
+    section.note = (
+        "In a FOR loop whose own turn is taken off; beside it PicoMite's MMBasic on the same emulated "
+        "core."
+    )
+    for goal, cycles in zip(measure.GOALS, measure.goals(uf2), strict=True):
+        limit, original = whole(goal.limit), f"({whole(goal.original)})"
+        section.rows.append([f"{goal.name}", whole(cycles), limit, original])
+        if cycles > goal.limit:
+            missed.append(f"{goal.name} takes {cycles:.0f} cycles")
+    return section
+
+
 def lateness_section(uf2: Path) -> Section:
     section = Section(
         "Edges against their tick", ["", "edge", "least", "median", "99 %", "99.9 %", "worst"]
@@ -277,6 +291,7 @@ def main() -> int:
         governor_section(options.uf2, missed),
         queue_section(options.uf2, missed),
         fed_section(options.uf2, missed),
+        goals_section(options.uf2, missed),
         statement_section(options.uf2),
         lateness_section(options.uf2),
         motion_section(missed),

@@ -262,6 +262,63 @@ def statement(board: Emulator, body: str, few: int, many: int) -> float:
     return (took[1] - took[0]) / (many - few) / 1000 * CYCLES_PER_US
 
 
+@dataclass(frozen=True)
+class Goal:
+    """A statement of a program with the cycles it may take, and those of the original there."""
+
+    name: str
+    body: str
+    limit: int
+    original: int
+
+
+# The original's figures were measured on the same emulated core.
+GOALS = (
+    Goal("an empty turn of FOR ... NEXT", "", 400, 428),
+    Goal("a = a + 1, float", "a = a + 1", 1200, 3070),
+    Goal("a% = a% + 1, integer", "c% = c% + 1", 1000, 2720),
+    Goal("a SUB with two arguments", "two a, b", 3000, 10_400),
+    Goal('s$ = "0123456789" + "abcdefghij"', 's$ = "0123456789" + "abcdefghij"', 1500, 4850),
+    Goal("a = SIN(b)", "a = SIN(b)", 2500, 4760),
+    Goal("IF a > b THEN, not taken", "IF a > b THEN c% = 1", 1200, 4820),
+    Goal(
+        '"G1 X" + STR$(a + i / 10, 1, 3) + " F3000"',
+        's$ = "G1 X" + STR$(a + i / 10, 1, 3) + " F3000"',
+        9000,
+        18_500,
+    ),
+    Goal("STEPPER GS of a line of G1, planned", 'STEPPER GS "G1 X1.2345 Y0.5678"', 25_000, 31_000),
+)
+
+
+def goals(uf2: Path) -> list[float]:
+    """Cycles of each of GOALS in a program, the turn of the loop around it taken off."""
+    with ready(uf2, 1024) as board:
+        board.command("STEPPER GC G91 F1500")
+        board.send("AUTOSAVE\r")
+        for row, goal in enumerate(GOALS):
+            lines = (f"SUB row{row}", "FOR i = 1 TO n", goal.body, "NEXT", "END SUB")
+            board.send("\r".join(line for line in lines if line) + "\r")
+            board.run_ms(20)
+        board.send("SUB two x, y\rEND SUB\r\x1a")
+        board.until("\n> ")
+        took = []
+        for row in range(len(GOALS)):
+            few, many = (50, 300) if row == len(GOALS) - 1 else (500, 1500)
+            start = board.command(f"a = 1: b = 2: c% = 1: n = {few}")
+            assert "rror" not in start, start
+            times = []
+            for count in (few, many):
+                start_ns = board.now_ns
+                answer = board.command(f"n = {count}: row{row}", timeout_ms=20_000)
+                if "rror" in answer:
+                    raise RuntimeError(answer)
+                times.append(board.now_ns - start_ns)
+            took.append((times[1] - times[0]) / (many - few) / 1000 * CYCLES_PER_US)
+        no_faults(board)
+    return [took[0]] + [cycles - took[0] for cycles in took[1:]]
+
+
 def statements(uf2: Path) -> list[tuple[str, float]]:
     """BASIC statements with their share of the interpreter's loop, the empty loop taken off."""
     with ready(uf2, 1024) as board:

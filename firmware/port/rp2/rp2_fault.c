@@ -10,7 +10,6 @@
 
 #include "rp2_port.h"
 
-#define WATCHDOG_MS 8000u // the chip's limit is 8.3 s
 #define REASON_FAULT 0xFA017000u
 #define REASON_PANIC 0xFA017001u
 
@@ -27,14 +26,10 @@ void rp2_fault_init(void) {
         format_text(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
     } else if (watchdog_enable_caused_reboot()) {
         format_text(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
-                    WATCHDOG_MS / 1000);
+                    RP2_FAULT_WATCHDOG_MS / 1000);
     }
     watchdog_hw->scratch[0] = 0;
-    watchdog_enable(WATCHDOG_MS, true);
-}
-
-void rp2_fault_feed(void) {
-    watchdog_update();
+    watchdog_enable(RP2_FAULT_WATCHDOG_MS, true);
 }
 
 const char *rp2_fault_report(void) {

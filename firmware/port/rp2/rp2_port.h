@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "hardware/structs/watchdog.h"
+
 // Interrupt priorities, low numbers first. Between these two lies everything of the SDK, at 0x80.
 #define RP2_PRIORITY_TICK 0x00u
 #define RP2_PRIORITY_GOVERNOR 0xC0u
@@ -22,8 +24,18 @@ void rp2_console_init(void);
 void rp2_fault_init(void);
 
 // Tells the watchdog that the main loop is alive. To be called at least every RP2_FAULT_FEED_US.
-void rp2_fault_feed(void);
+// Inline: this is asked at each BASIC statement.
 #define RP2_FAULT_FEED_US 2000000u
+#define RP2_FAULT_WATCHDOG_MS 8000u // the RP2040's limit is 8.3 s
+#if PICO_RP2040
+#define RP2_FAULT_COUNTS_PER_US 2u // its watchdog counts twice in a microsecond
+#else
+#define RP2_FAULT_COUNTS_PER_US 1u
+#endif
+
+static inline void rp2_fault_feed(void) {
+    watchdog_hw->load = RP2_FAULT_WATCHDOG_MS * 1000u * RP2_FAULT_COUNTS_PER_US;
+}
 
 // A line about the last restart if a fault was the reason, else NULL. Any context.
 const char *rp2_fault_report(void);
