@@ -158,12 +158,14 @@ static void compile_words(void) {
 
 void compiler_statement(void) {
     uint32_t outer = compiler.statement;
+    expressions_enter(1);
     begin_statement();
     compile_words();
     if (!lexer_at_end()) {
         errors_fail(ERR_SYNTAX);
     }
     end_statement(compiler.statement);
+    expressions_leave(1);
     compiler.statement = outer;
 }
 

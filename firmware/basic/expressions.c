@@ -13,8 +13,10 @@
 #include "symbols.h"
 #include "words.h"
 
-// Parentheses, arguments and subscripts inside each other; each costs some 150 bytes of C stack.
-#define NESTING_MAX 32
+// The C stack bounds what may stand inside each other: an operator that binds more tightly than the one
+// before costs some 60 bytes of it, and counts one; parentheses, arguments and subscripts count four.
+#define NESTING_MAX 132
+#define PARENTHESIS_WEIGHT 3 // besides the expression inside
 
 typedef struct {
     int symbol;
@@ -55,6 +57,17 @@ void expressions_start(void) {
     nesting = 0;
 }
 
+void expressions_enter(unsigned weight) {
+    nesting += weight;
+    if (nesting > NESTING_MAX) {
+        errors_fail(ERR_TOO_COMPLEX);
+    }
+}
+
+void expressions_leave(unsigned weight) {
+    nesting -= weight;
+}
+
 static const operator_t *find_operator(void) {
     const lexer_token_t *token = lexer_now();
     if (token->kind != LEXER_SYMBOL && token->kind != LEXER_NAME) {
@@ -71,13 +84,11 @@ static const operator_t *find_operator(void) {
 }
 
 static void enter(void) {
-    if (++nesting > NESTING_MAX) {
-        errors_fail(ERR_TOO_COMPLEX);
-    }
+    expressions_enter(PARENTHESIS_WEIGHT);
 }
 
 static void leave(void) {
-    nesting--;
+    expressions_leave(PARENTHESIS_WEIGHT);
 }
 
 unsigned expressions_compile_subscripts(void) {
@@ -311,10 +322,12 @@ static void compile_operand(void) {
 
 // Everything that binds at least as tightly as `precedence`.
 static void compile_at(unsigned precedence) {
+    expressions_enter(1);
     compile_operand();
     for (;;) {
         const operator_t *row = find_operator();
         if (row == NULL || row->precedence < precedence) {
+            expressions_leave(1);
             return;
         }
         lexer_next();

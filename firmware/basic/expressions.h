@@ -37,4 +37,8 @@ void expressions_compile_reference_or_array(void);
 // Forgets the nesting an error left.
 void expressions_start(void);
 
+// Around whatever calls itself while compiling, so that the C stack suffices. Error: too complex.
+void expressions_enter(unsigned weight);
+void expressions_leave(unsigned weight);
+
 #endif
