@@ -6,6 +6,7 @@ from stepmite.emulator import Emulator
 from stepmite.trace import AxisPins, Edges, axis_trace
 
 WFE = 2
+MAIN_STACK_TOP, MAIN_STACK_BYTES, GUARD_BYTES = 0x20041000, 16 * 1024, 2048
 X = AxisPins("X", 2, 3, False, 80.0)
 SETUP = ["STEPPER INIT", "STEPPER AXIS X,GP2,GP3,,,80,6000,500", "STEPPER POSITION HOME"]
 
@@ -33,17 +34,32 @@ def test_idle_board_sleeps_without_a_tick(board: Emulator) -> None:
     assert busy < 0.01 * 500 * 125_000
 
 
-def test_heap_of_the_c_library_stays_below_what_is_reserved(board: Emulator) -> None:
-    """The firmware allocates nothing; newlib does for numbers that are long or far from 1."""
+def stack_used(board: Emulator) -> int:
+    """Bytes of main's stack (rp2_memory.ld) that were written at some time; RAM starts as zeros."""
+    bottom = MAIN_STACK_TOP - MAIN_STACK_BYTES
+    for start in range(bottom, MAIN_STACK_TOP, 64):
+        if any(board.peek(at) for at in range(start, start + 64, 4)):
+            return MAIN_STACK_TOP - start
+    return 0
+
+
+def test_main_stack_keeps_a_third_free_at_worst(board: Emulator) -> None:
+    """Expressions as deep as they may be, compiled by EVAL in a SUB, and the longest numbers."""
+    board.command("SUB")  # the console's part of it
+    assert 500 < stack_used(board) < 3000
+    deep = "1=2+3*4^(" * 17 + "1" + ")" * 17
     for line in [
         "PRINT 1.7976931348623157e308, 1e-300",
         'N$="0."+STRING$(240,"7")',
         'PRINT VAL(N$+"e308"), VAL(N$+"e-300"), VAL(STRING$(250,"7"))',
         'PRINT FORMAT$(1e-300,"%128.120f"), FORMAT$(1e90,"%120.30f")',
+        "PRINT " + "MAX(1=2+3*4^" * 13 + "1" + ",1)" * 13,
+        "IF 1 THEN " * 17 + "PRINT " + "1=2+4*(" * 9 + "1" + ")" * 9,
     ]:
         assert "rror" not in board.command(line)
-    # Without the up to 4 KB that align its first page, which another image would have elsewhere.
-    assert 0 < board.peek("__malloc_max_sbrked_mem") <= 0x3000 - 4096
+    assert "Expression too complex" in board.command(f'PRINT EVAL("{deep}")')
+    used = stack_used(board)
+    assert 5000 < used < (MAIN_STACK_BYTES - GUARD_BYTES) * 2 // 3
 
 
 def test_host_that_does_not_read_does_not_stop_motion(board: Emulator) -> None:
