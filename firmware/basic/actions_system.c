@@ -50,6 +50,12 @@ ACTION_BODY(autosave) {
     actions_stop_with(VM_REQUEST_AUTOSAVE);
 }
 
+ACTION_BODY(edit) {
+    (void)arguments;
+    (void)count;
+    actions_stop_with(VM_REQUEST_EDIT);
+}
+
 ACTION_BODY(timer) {
     (void)count;
     double ms = value_to_number(arguments);

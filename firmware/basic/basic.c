@@ -9,6 +9,7 @@
 #include "channels.h"
 #include "compiler.h"
 #include "console.h"
+#include "editor.h"
 #include "errors.h"
 #include "events.h"
 #include "files/files.h"
@@ -57,6 +58,9 @@ void basic_printf(const char *format, ...) {
 }
 
 static void show_notice(const char *text) {
+    if (editor_notice(text)) {
+        return;
+    }
     bool typing = line_editor_hide();
     if (!typing) {
         console_fresh_line();
@@ -126,6 +130,7 @@ static void print_error(const char *message) {
     size_t length;
     const char *line = vm_line() != 0 ? program_line(vm_line(), &length) : NULL;
     if (line != NULL) {
+        editor_set_line(vm_line());
         char number[16];
         format_text(number, sizeof number, "[%u] ", vm_line());
         console_print(number);
@@ -141,12 +146,16 @@ static void nothing(void) {}
 
 // ---- Running -------------------------------------------------------------------------------------
 
-static void handle_break(void) {
-    console_clear_break();
-    console_fresh_line();
+static void stop_machine(void) {
     if (config->on_break != NULL) {
         config->on_break();
     }
+}
+
+static void handle_break(void) {
+    console_clear_break();
+    console_fresh_line();
+    stop_machine();
 }
 
 // Runs code to its end and reports what ended it.
@@ -247,6 +256,15 @@ static void serve(vm_request_t request) {
     case VM_REQUEST_AUTOSAVE: {
         bool start = false;
         err_t error = autosave_read(&start);
+        report(error);
+        if (start && error == ERR_OK) {
+            run_program();
+        }
+        break;
+    }
+    case VM_REQUEST_EDIT: {
+        bool start = false;
+        err_t error = editor_edit(NULL, stop_machine, &start);
         report(error);
         if (start && error == ERR_OK) {
             run_program();

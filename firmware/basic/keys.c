@@ -109,7 +109,8 @@ typedef struct {
     int final; // -1: it was cut off
 } sequence_t;
 
-// The rest of a sequence behind ESC [ or ESC O. A control character cannot belong to it: it is left.
+// The rest of a sequence behind ESC [ or ESC O. A control character cannot belong to it: it is
+// left.
 static void read_sequence(sequence_t *sequence, uint64_t until_us) {
     unsigned place = 0;
     *sequence = (sequence_t){.final = -1};

@@ -1,5 +1,5 @@
-// Keys of a terminal: bytes as they are, and the sequences that PuTTY, xterm, TeraTerm, screen, minicom,
-// rxvt, the Linux console and VS Code send for the others. Context: main loop.
+// Keys of a terminal: bytes as they are, and the sequences that PuTTY, xterm, TeraTerm, screen,
+// minicom, rxvt, the Linux console and VS Code send for the others. Context: main loop.
 #ifndef BASIC_KEYS_H
 #define BASIC_KEYS_H
 

@@ -67,6 +67,11 @@ void statements_autosave(void) {
     emit_action(ACTIONS_AUTOSAVE, 0);
 }
 
+void statements_edit(void) {
+    at_prompt_only();
+    emit_action(ACTIONS_EDIT, 0);
+}
+
 void statements_list(void) {
     bool all = lexer_take_word("ALL");
     if (lexer_at_end()) {

@@ -19,7 +19,8 @@ typedef enum {
     VM_REQUEST_RUN,
     VM_REQUEST_NEW,
     VM_REQUEST_AUTOSAVE,
-    VM_REQUEST_RECEIVE
+    VM_REQUEST_RECEIVE,
+    VM_REQUEST_EDIT,
 } vm_request_t;
 
 typedef enum { VM_ERROR_ABORT, VM_ERROR_IGNORE, VM_ERROR_SKIP } vm_on_error_t;

@@ -1,0 +1,13 @@
+// Where the editor's text comes from and goes to: the program, or a file. Context: main loop.
+#ifndef BASIC_EDITOR_STORE_H
+#define BASIC_EDITOR_STORE_H
+
+#include "base/base.h"
+
+// Fills the (empty) text. A file that is not there is a new one. Error: too long, not readable.
+err_t editor_store_load(const char *file);
+
+// Keeps the text. Without an error it is gone from the editor's memory.
+err_t editor_store_save(const char *file);
+
+#endif

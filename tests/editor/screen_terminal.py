@@ -1,0 +1,84 @@
+"""A real terminal emulator (pyte) at the host program: what a user would see on the screen."""
+
+from __future__ import annotations
+
+import os
+import pty
+import select
+import subprocess
+from pathlib import Path
+
+import pyte
+
+PROGRAM = os.environ.get("STEPMITE", str(Path(__file__).parents[2] / "build/host/stepmite"))
+TIMEOUT_S = 5
+DRAWN = b"\x1b[?25h"  # the editor ends each drawing by showing the cursor
+
+
+class ScreenTerminal:
+    """The host program on a pseudo terminal, in virtual time, and the screen it draws."""
+
+    def __init__(self, rows: int = 24, columns: int = 80, options: tuple[str, ...] = ()) -> None:
+        self.screen = pyte.Screen(columns, rows)
+        self.stream = pyte.ByteStream(self.screen)
+        self.master, slave = pty.openpty()
+        self.program = subprocess.Popen(
+            [PROGRAM, "--virtual", *options],
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            close_fds=True,
+        )
+        os.close(slave)
+        self.until(b"> ")
+
+    def until(self, end: bytes) -> bytes:
+        """Take output in up to `end`; what was seen."""
+        seen = b""
+        while not seen.endswith(end):
+            ready, _, _ = select.select([self.master], [], [], TIMEOUT_S)
+            assert ready, f"no {end!r} after {seen[-300:]!r}"
+            seen += os.read(self.master, 65536)
+        self.stream.feed(seen)
+        return seen
+
+    def type(self, text: str | bytes, end: bytes = b"\r\n> ") -> bytes:
+        """Type, wait for what ends the answer; the answer."""
+        data = text.encode() if isinstance(text, str) else text
+        while data:
+            count = os.write(self.master, data[:2000])
+            data = data[count:]
+        return self.until(end)
+
+    def key(self, key: str | bytes) -> bytes:
+        """Press a key of the editor; the drawing."""
+        return self.type(key, DRAWN)
+
+    def enter_program(self, text: str) -> None:
+        """Store a program."""
+        self.type("AUTOSAVE\r", b"\r\n")
+        self.type(text.replace("\n", "\r") + "\x1a")
+
+    def edit(self, statement: str = "EDIT") -> None:
+        """Open the editor."""
+        self.type(statement + "\r", DRAWN)
+
+    def listing(self) -> str:
+        """Return the stored program."""
+        shown = self.type("LIST ALL\r").decode()
+        return shown.removeprefix("LIST ALL\r\n").removesuffix("> ").replace("\r\n", "\n")
+
+    def rows(self) -> list[str]:
+        """Return the rows of the screen."""
+        return [row.rstrip() for row in self.screen.display]
+
+    def cursor(self) -> tuple[int, int]:
+        """Row and column of the cursor, from 0."""
+        return self.screen.cursor.y, self.screen.cursor.x
+
+    def close(self) -> None:
+        """End the program, which must still be alive."""
+        assert self.program.poll() is None
+        self.program.kill()
+        self.program.wait()
+        os.close(self.master)
