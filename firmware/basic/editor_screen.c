@@ -2,9 +2,9 @@
 #include "editor_screen.h"
 
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "console.h"
 
 #define LOOK_SHIFT 13
@@ -111,9 +111,9 @@ unsigned editor_screen_column(void) {
 static void print_sequence(unsigned first, unsigned second, char letter) {
     char text[24];
     if (second != 0) {
-        snprintf(text, sizeof text, "\x1b[%u;%u%c", first, second, letter);
+        format_text(text, sizeof text, "\x1b[%u;%u%c", first, second, letter);
     } else {
-        snprintf(text, sizeof text, "\x1b[%u%c", first, letter);
+        format_text(text, sizeof text, "\x1b[%u%c", first, letter);
     }
     console_print(text);
 }

@@ -2,9 +2,9 @@
 #include "editor_view.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "editor_colour.h"
 #include "editor_cursor.h"
 #include "editor_screen.h"
@@ -155,11 +155,10 @@ static void draw_status(size_t column) {
     editor_screen_print(view.name != NULL ? view.name : "Program", EDITOR_SCREEN_INVERSE);
     unsigned width = editor_screen_columns();
     editor_screen_fill(width > 60 ? width - 46 : width / 3, EDITOR_SCREEN_INVERSE);
-    int length = snprintf(text, sizeof text, " %s  Ln %u of %u  Col %u",
-                          cursor->overwrite ? "OVR" : "INS", (unsigned)cursor->line + 1,
-                          (unsigned)editor_text_line_ends() + 1, (unsigned)column + 1);
-    snprintf(text + length, sizeof text - (size_t)length, "%*s%u free", 32 - length, " ",
-             (unsigned)editor_text_room() / 1024 * 1024);
+    format_text(text, sizeof text, " %s  Ln %u of %u  Col %-5u %u KB free",
+                cursor->overwrite ? "OVR" : "INS", (unsigned)cursor->line + 1,
+                (unsigned)editor_text_line_ends() + 1, (unsigned)column + 1,
+                (unsigned)editor_text_room() / 1024);
     editor_screen_print(text, EDITOR_SCREEN_INVERSE);
     editor_screen_fill(width, EDITOR_SCREEN_INVERSE);
     editor_screen_end_row(editor_view_rows());
@@ -203,7 +202,7 @@ void editor_view_draw(void) {
 void editor_view_message(const char *format, ...) {
     va_list args;
     va_start(args, format);
-    vsnprintf(view.message, sizeof view.message, format, args);
+    format_list(view.message, sizeof view.message, format, args);
     va_end(args);
 }
 
