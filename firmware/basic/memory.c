@@ -7,7 +7,7 @@
 
 #define ALIGNMENT 8u
 #define HANDLES_SIZE (32768u * ALIGNMENT)
-#define BYTES_PER_VALUE 240u // of arena for each place on the stack
+#define BYTES_PER_VALUE 160u // of arena for each place on the stack
 
 memory_t memory;
 

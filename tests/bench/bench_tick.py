@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import measure
 import motion
+import ram
 from rich.console import Console
 from rich.table import Table
 
@@ -300,7 +301,7 @@ def main() -> int:
     console = Console()
     for section in sections:
         show(console, section)
-    sizes = size_text(options.uf2)
+    sizes = f"{size_text(options.uf2).rstrip()}\n\nWho uses the RAM:\n\n{ram.table(options.uf2)}\n"
     console.print(sizes, markup=False, highlight=False)
     if options.write:
         texts = [INTRO, *[markdown(section) for section in sections]]
