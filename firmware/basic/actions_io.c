@@ -42,6 +42,20 @@ void actions_print_tab(value_t *arguments, unsigned count) {
     }
 }
 
+// column, row, from 0 at the top left
+void actions_print_at(value_t *arguments, unsigned count) {
+    (void)count;
+    int64_t column = value_to_integer(&arguments[0]);
+    int64_t row = value_to_integer(&arguments[1]);
+    if (column < 0 || column >= VALUE_STRING_MAX || row < 0 || row >= VALUE_STRING_MAX) {
+        errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
+    }
+    char text[24];
+    format_text(text, sizeof text, "\x1b[%u;%uH", (unsigned)row + 1, (unsigned)column + 1);
+    console_print(text);
+    console_set_column((unsigned)column);
+}
+
 void actions_print_line(value_t *arguments, unsigned count) {
     (void)arguments;
     (void)count;

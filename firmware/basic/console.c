@@ -294,6 +294,10 @@ unsigned console_columns(void) {
     return console.columns;
 }
 
+void console_set_column(unsigned column) {
+    console.column = column;
+}
+
 unsigned console_column(void) {
     return console.column;
 }

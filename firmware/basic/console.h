@@ -75,6 +75,9 @@ unsigned console_columns(void);
 // Column of the next character, from 0.
 unsigned console_column(void);
 
+// A sequence just written has put the cursor there.
+void console_set_column(unsigned column);
+
 // Sends what can go at once.
 void console_send(void);
 

@@ -6,7 +6,7 @@
 #include "args.h"
 #include "emit.h"
 #include "errors.h"
-#include "functions.h"
+#include "function_calls.h"
 #include "lexer.h"
 #include "memory.h"
 #include "names.h"
@@ -16,7 +16,6 @@
 // The C stack bounds what may stand inside each other: an operator that binds more tightly than the one
 // before costs some 60 bytes of it, and counts one; parentheses, arguments and subscripts count four.
 #define NESTING_MAX 132
-#define PARENTHESIS_WEIGHT 3 // besides the expression inside
 
 typedef struct {
     int symbol;
@@ -84,11 +83,11 @@ static const operator_t *find_operator(void) {
 }
 
 static void enter(void) {
-    expressions_enter(PARENTHESIS_WEIGHT);
+    expressions_enter(EXPRESSIONS_PARENTHESIS);
 }
 
 static void leave(void) {
-    expressions_leave(PARENTHESIS_WEIGHT);
+    expressions_leave(EXPRESSIONS_PARENTHESIS);
 }
 
 unsigned expressions_compile_subscripts(void) {
@@ -114,7 +113,7 @@ uint16_t expressions_compile_name(void) {
 }
 
 // `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference.
-static void compile_variable(bool reference, bool arrays) {
+void expressions_compile_variable(bool reference, bool arrays) {
     const lexer_token_t *name = lexer_now();
     if (words_is_reserved(name->text, name->length)) {
         errors_fail(ERR_SYNTAX);
@@ -150,92 +149,11 @@ static void compile_call(symbols_t *symbol) {
     emit_byte(count);
 }
 
-// What the `index`th argument has to be, see functions.h.
-static char type_of_argument(const functions_row_t *function, unsigned index) {
-    size_t last = strlen(function->types) - 1;
-    return function->types[index < last ? index : last];
-}
-
-// A name with nothing behind it; with a $ it is a variable.
-static bool is_bare_word(void) {
-    const lexer_token_t *token = lexer_now();
-    if (token->kind != LEXER_NAME || token->suffix != 0) {
-        return false;
-    }
-    const char *start = token->text;
-    lexer_next();
-    bool bare = lexer_is(',') || lexer_is(')');
-    lexer_go(start);
-    return bare;
-}
-
-static void compile_function_argument(char type) {
-    if (type == 'a') {
-        compile_variable(false, true);
-        return;
-    }
-    if (type == 'c') {
-        lexer_take('#');
-    }
-    if (type == 'w' && is_bare_word()) {
-        emit_string(lexer_now()->text, lexer_now()->length);
-        lexer_next();
-        return;
-    }
-    expressions_compile();
-}
-
-// CALL(name$, arguments) and EVAL(text$).
-static void compile_indirect(void) {
-    bool is_call = lexer_is_word("CALL");
-    unsigned count = 0;
-    lexer_next();
-    lexer_expect('(');
-    enter();
-    expressions_compile();
-    if (is_call && lexer_take(',')) {
-        count = expressions_compile_arguments(')');
-    }
-    leave();
-    lexer_expect(')');
-    emit_indirect(is_call ? INDIRECT_FUNCTION : INDIRECT_EVAL, count);
-}
-
-static void compile_function(int row) {
-    const functions_row_t *function = &functions_table[row];
-    unsigned count = 0;
-    if (function->evaluate == NULL) {
-        compile_indirect();
-        return;
-    }
-    lexer_next();
-    if (function->most > 0 && (function->least > 0 || lexer_is('('))) {
-        lexer_expect('(');
-        enter();
-        while (!lexer_is(')')) {
-            if (count > 0) {
-                lexer_expect(',');
-            }
-            compile_function_argument(type_of_argument(function, count++));
-        }
-        leave();
-        lexer_expect(')');
-    } else if (function->most == 0 && lexer_take('(')) {
-        lexer_expect(')');
-    }
-    if (count < function->least || count > function->most) {
-        errors_fail(ERR_ARGUMENT_COUNT);
-    }
-    emit_op(OP_FUNCTION);
-    emit_byte((unsigned)row);
-    emit_byte(count);
-}
-
 static void compile_name(void) {
     const lexer_token_t *name = lexer_now();
     int row = words_find(WORDS_FUNCTION, name->text, name->length);
     if (row != WORDS_NONE) {
-        compile_function(row);
+        function_calls_compile(row);
         return;
     }
     row = words_find(WORDS_HOST_FUNCTION, name->text, name->length);
@@ -262,7 +180,7 @@ static void compile_name(void) {
             return;
         }
     }
-    compile_variable(false, false);
+    expressions_compile_variable(false, false);
 }
 
 // Not inlined: its buffer would lie on the C stack once for each parenthesis.
@@ -355,7 +273,7 @@ void expressions_compile_argument(void) {
         bool is_array = lexer_take('(') && lexer_is(')');
         lexer_go(start);
         if (is_array && !is_routine) {
-            compile_variable(false, true);
+            expressions_compile_variable(false, true);
             return;
         }
     }
@@ -396,7 +314,7 @@ static void compile_reference(bool arrays) {
     if (lexer_now()->kind != LEXER_NAME) {
         errors_fail(ERR_SYNTAX);
     }
-    compile_variable(true, arrays);
+    expressions_compile_variable(true, arrays);
 }
 
 void expressions_compile_reference(void) {

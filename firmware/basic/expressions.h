@@ -2,6 +2,7 @@
 #ifndef BASIC_EXPRESSIONS_H
 #define BASIC_EXPRESSIONS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "code.h"
@@ -34,10 +35,15 @@ void expressions_compile_reference(void);
 // The same, or name() for a whole array.
 void expressions_compile_reference_or_array(void);
 
+// `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference. `arrays`:
+// name() is allowed and is the whole array.
+void expressions_compile_variable(bool reference, bool arrays);
+
 // Forgets the nesting an error left.
 void expressions_start(void);
 
 // Around whatever calls itself while compiling, so that the C stack suffices. Error: too complex.
+#define EXPRESSIONS_PARENTHESIS 3 // weight of parentheses, besides the expression inside
 void expressions_enter(unsigned weight);
 void expressions_leave(unsigned weight);
 

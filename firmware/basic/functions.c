@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "channels.h"
 #include "errors.h"
+#include "words.h"
 
 const functions_row_t functions_table[] = {
     {"ABS", "n", 1, 1, functions_abs, "ABS(number): without its sign"},
@@ -16,6 +17,8 @@ const functions_row_t functions_table[] = {
     {"ASIN", "f", 1, 1, functions_asin, "ASIN(number): angle in radians"},
     {"ATAN2", "f", 2, 2, functions_atan2, "ATAN2(y, x): angle in radians"},
     {"ATN", "f", 1, 1, functions_atn, "ATN(number): angle in radians"},
+    {"BIN2STR$", "wvw", 2, 3, functions_bin2str,
+     "BIN2STR$(INT8|UINT8 ... UINT64|SINGLE|DOUBLE, number [, BIG]): its bytes, the lowest first"},
     {"BIN$", "i", 1, 2, functions_bin, "BIN$(number [, digits])"},
     {"BOUND", "ai", 1, 2, functions_bound,
      "BOUND(array() [, dimension]): highest subscript; 0: OPTION BASE"},
@@ -45,12 +48,33 @@ const functions_row_t functions_table[] = {
     {"LOC", "c", 1, 1, functions_loc, "LOC([#]n): position in a file, from 1"},
     {"LOF", "c", 1, 1, functions_lof, "LOF([#]n): size of a file"},
     {"LOG", "f", 1, 1, functions_log, "LOG(number): natural logarithm"},
+    {"MATH", "(", 1, 1, NULL,
+     "MATH(SUM|MEAN|SD|MEDIAN array()) / MATH(MAX|MIN array() [, subscript]) / "
+     "MATH(LOG10|SINH|COSH|TANH number) / MATH(ATAN3 x, y) / MATH(POWER number, exponent) / "
+     "MATH(CRC8|CRC16|CRC32 text$|array() [, length] [, polynomial] [, start] [, end] "
+     "[, reverse_in] [, reverse_out])"},
+    {"MATH(ATAN3", "f", 2, 2, functions_math_atan3, NULL},
+    {"MATH(COSH", "f", 1, 1, functions_math_cosh, NULL},
+    {"MATH(CRC16", "dI", 1, 7, functions_math_crc16, NULL},
+    {"MATH(CRC32", "dI", 1, 7, functions_math_crc32, NULL},
+    {"MATH(CRC8", "dI", 1, 7, functions_math_crc8, NULL},
+    {"MATH(LOG10", "f", 1, 1, functions_math_log10, NULL},
+    {"MATH(MAX", "ar", 1, 2, functions_math_max, NULL},
+    {"MATH(MEAN", "a", 1, 1, functions_math_mean, NULL},
+    {"MATH(MEDIAN", "a", 1, 1, functions_math_median, NULL},
+    {"MATH(MIN", "ar", 1, 2, functions_math_min, NULL},
+    {"MATH(POWER", "f", 2, 2, functions_math_power, NULL},
+    {"MATH(SD", "a", 1, 1, functions_math_sd, NULL},
+    {"MATH(SINH", "f", 1, 1, functions_math_sinh, NULL},
+    {"MATH(SUM", "a", 1, 1, functions_math_sum, NULL},
+    {"MATH(TANH", "f", 1, 1, functions_math_tanh, NULL},
     {"MAX", "f", 1, 10, functions_max, "MAX(number, number ...)"},
     {"MID$", "si", 2, 3, functions_mid, "MID$(text$, start [, count])"},
     {"MIN", "f", 1, 10, functions_min, "MIN(number, number ...)"},
     {"MM.DEVICE$", "", 0, 0, functions_mm_device, "MM.DEVICE$: name of the board"},
     {"MM.ERRMSG$", "", 0, 0, functions_mm_errmsg, "MM.ERRMSG$: text of the last error"},
     {"MM.ERRNO", "", 0, 0, functions_mm_errno, "MM.ERRNO: 0 if there was no error"},
+    {"MM.VER", "", 0, 0, functions_mm_ver, "MM.VER: version of the firmware as a number"},
     {"OCT$", "i", 1, 2, functions_oct, "OCT$(number [, digits])"},
     {"PI", "", 0, 0, functions_pi, "PI"},
     {"RAD", "f", 1, 1, functions_rad, "RAD(degrees): radians"},
@@ -59,7 +83,10 @@ const functions_row_t functions_table[] = {
     {"SGN", "f", 1, 1, functions_sgn, "SGN(number): -1, 0 or 1"},
     {"SIN", "f", 1, 1, functions_sin, "SIN(radians)"},
     {"SPACE$", "i", 1, 1, functions_space, "SPACE$(count)"},
+    {"SPC", "i", 1, 1, functions_space, "SPC(count): blanks"},
     {"SQR", "f", 1, 1, functions_sqr, "SQR(number): square root"},
+    {"STR2BIN", "wsw", 2, 3, functions_str2bin,
+     "STR2BIN(INT8|UINT8 ... UINT64|SINGLE|DOUBLE, text$ [, BIG]): the number these bytes are"},
     {"STR$", "niis", 1, 4, functions_str, "STR$(number [, width [, decimals [, filler$]]])"},
     {"STRING$", "iv", 2, 2, functions_string, "STRING$(count, code or text$)"},
     {"TAN", "f", 1, 1, functions_tan, "TAN(radians)"},
@@ -68,6 +95,8 @@ const functions_row_t functions_table[] = {
     {"UCASE$", "s", 1, 1, functions_ucase, "UCASE$(text$)"},
     {"VAL", "s", 1, 1, functions_val, "VAL(text$): the number it starts with"},
 };
+
+_Static_assert(COUNT_OF_ARRAY(functions_table) <= WORDS_ROWS_MAX, "no word for the last rows");
 
 const size_t functions_count = COUNT_OF_ARRAY(functions_table);
 
@@ -82,6 +111,11 @@ static void convert(value_t *argument, char type) {
     case 'n':
         if (!value_is_numeric(argument)) {
             errors_fail(ERR_EXPECTED_NUMBER);
+        }
+        break;
+    case 'I':
+        if (argument->type != VALUE_NONE) {
+            value_set_integer(argument, value_to_integer(argument));
         }
         break;
     case 'c':

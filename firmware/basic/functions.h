@@ -13,8 +13,9 @@ typedef void (*functions_evaluate_t)(value_t *arguments, unsigned count, value_t
 typedef struct {
     const char *name;
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
-    // n either number, s string, v any value, a a whole array, c number of a channel,
-    // w a bare word or a string.
+    // n either number, s string, v any value, a a whole array, c number of a channel, d a value or a
+    // whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or string.
+    // `(`: a family of functions whose keyword stands in the parentheses, rows "NAME(KEYWORD".
     const char *types;
     uint8_t least; // arguments
     uint8_t most;
@@ -89,6 +90,24 @@ FUNCTIONS_DECLARE(timer)
 FUNCTIONS_DECLARE(mm_device)
 FUNCTIONS_DECLARE(mm_errmsg)
 FUNCTIONS_DECLARE(mm_errno)
+FUNCTIONS_DECLARE(math_sum)
+FUNCTIONS_DECLARE(math_mean)
+FUNCTIONS_DECLARE(math_sd)
+FUNCTIONS_DECLARE(math_max)
+FUNCTIONS_DECLARE(math_min)
+FUNCTIONS_DECLARE(math_median)
+FUNCTIONS_DECLARE(math_atan3)
+FUNCTIONS_DECLARE(math_cosh)
+FUNCTIONS_DECLARE(math_sinh)
+FUNCTIONS_DECLARE(math_tanh)
+FUNCTIONS_DECLARE(math_log10)
+FUNCTIONS_DECLARE(math_power)
+FUNCTIONS_DECLARE(math_crc8)
+FUNCTIONS_DECLARE(math_crc16)
+FUNCTIONS_DECLARE(math_crc32)
+FUNCTIONS_DECLARE(str2bin)
+FUNCTIONS_DECLARE(bin2str)
+FUNCTIONS_DECLARE(mm_ver)
 #undef FUNCTIONS_DECLARE
 
 #endif

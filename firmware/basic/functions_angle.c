@@ -71,6 +71,13 @@ FUNCTION(atan2) {
     set_angle(result, atan2(arguments[0].number, arguments[1].number));
 }
 
+// From 0 to a full turn, clockwise from the y axis as on a compass.
+FUNCTION(math_atan3) {
+    UNUSED_COUNT();
+    double radians = atan2(arguments[0].number, arguments[1].number);
+    set_angle(result, radians < 0 ? radians + 2 * pi : radians);
+}
+
 static double in_unit_range(const value_t *argument) {
     if (fabs(argument->number) > 1.0) {
         errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);

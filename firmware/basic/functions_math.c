@@ -59,14 +59,18 @@ FUNCTION(sqr) {
     value_set_number(result, sqrt(arguments->number));
 }
 
-FUNCTION(log) {
-    UNUSED_COUNT();
-    if (arguments->number < 0) {
+static void check_logarithm(double number) {
+    if (number < 0) {
         errors_fail(ERR_NEGATIVE_ARGUMENT);
     }
-    if (arguments->number == 0.0) {
+    if (number == 0.0) {
         errors_fail(ERR_DIVIDE_BY_ZERO);
     }
+}
+
+FUNCTION(log) {
+    UNUSED_COUNT();
+    check_logarithm(arguments->number);
     value_set_number(result, log(arguments->number));
 }
 
@@ -109,4 +113,30 @@ FUNCTION(rnd) {
     random_state ^= random_state >> 27;
     uint64_t bits = random_state * 0x2545F4914F6CDD1Du;
     value_set_number(result, (double)(bits >> 11) * 0x1p-53);
+}
+
+FUNCTION(math_log10) {
+    UNUSED_COUNT();
+    check_logarithm(arguments->number);
+    value_set_number(result, log10(arguments->number));
+}
+
+FUNCTION(math_sinh) {
+    UNUSED_COUNT();
+    set_checked(result, sinh(arguments->number));
+}
+
+FUNCTION(math_cosh) {
+    UNUSED_COUNT();
+    set_checked(result, cosh(arguments->number));
+}
+
+FUNCTION(math_tanh) {
+    UNUSED_COUNT();
+    value_set_number(result, tanh(arguments->number));
+}
+
+FUNCTION(math_power) {
+    UNUSED_COUNT();
+    set_checked(result, pow(arguments[0].number, arguments[1].number));
 }

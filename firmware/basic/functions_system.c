@@ -1,5 +1,6 @@
 // Functions of the machine and of the program itself. Context: main loop.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "console.h"
@@ -41,6 +42,22 @@ FUNCTION(mm_device) {
     (void)arguments;
     (void)count;
     value_set_text(result, hal_board_name(), strlen(hal_board_name()));
+}
+
+// 1.02.03 of version 1.2.3 as MMBasic does it: 1.0203.
+FUNCTION(mm_ver) {
+    (void)arguments;
+    (void)count;
+    const char *text = hal_firmware_version();
+    double place = 1.0;
+    double version = 0.0;
+    while (*text >= '0' && *text <= '9') {
+        char *end;
+        version += (double)strtoul(text, &end, 10) / place;
+        place *= 100.0;
+        text = *end == '.' ? end + 1 : end;
+    }
+    value_set_number(result, version);
 }
 
 FUNCTION(mm_errmsg) {

@@ -51,7 +51,9 @@ static void print_overview(void) {
         }
     }
     for (size_t i = 0; i < functions_count; i++) {
-        print_word(functions_table[i].name);
+        if (strchr(functions_table[i].name, '(') == NULL) { // a family stands for its members
+            print_word(functions_table[i].name);
+        }
     }
     console_fresh_line();
     print_line("HELP name tells more, for instance HELP PRINT.");

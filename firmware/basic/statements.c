@@ -59,6 +59,10 @@ const statements_row_t statements_table[] = {
      "Shows the program or a file, with ALL without a stop"},
     {"LOCAL", statements_local, "LOCAL [type] name ...", "As DIM, for this SUB or FUNCTION only"},
     {"LOOP", statements_loop, NULL, NULL},
+    {"MATH", statements_math,
+     "MATH SET number, a() / SCALE a(), number, b() / ADD a(), number, b() / "
+     "INTERPOLATE a(), b(), ratio, c()",
+     "Computes with whole arrays; the last one gets the result"},
     {"MEMORY", statements_memory, "MEMORY", "Shows how much memory is in use"},
     {"MKDIR", statements_mkdir, "MKDIR folder$", "Makes a folder"},
     {"NEW", statements_new, "NEW", "Deletes the program and all variables"},
@@ -93,6 +97,8 @@ const statements_row_t statements_table[] = {
     {"SETTICK", statements_settick,
      "SETTICK milliseconds, sub [, 1..4] / PAUSE|RESUME [, sub] [, 1..4]",
      "Calls a SUB again and again; 0, 0: no more"},
+    {"SORT", statements_sort, "SORT array() [, index()] [, flags] [, start] [, count]",
+     "Sorts; index() gets the old subscripts; flags: 1 downwards, 2 any case, 4 empty ones last"},
     {"STATIC", statements_static, "STATIC [type] name[(size, ...)] [= value] [, ...]",
      "As LOCAL, but keeps its value from call to call"},
     {"SUB", statements_sub, "SUB name [parameters] ... END SUB", "Defines a command"},
@@ -102,6 +108,8 @@ const statements_row_t statements_table[] = {
     {"XMODEM", statements_xmodem, "XMODEM SEND|RECEIVE [file$]",
      "Sends or receives a file, or the program, over the terminal"},
 };
+
+_Static_assert(COUNT_OF_ARRAY(statements_table) <= WORDS_ROWS_MAX, "no word for the last rows");
 
 const size_t statements_count = COUNT_OF_ARRAY(statements_table);
 

@@ -11,6 +11,11 @@ static void compile_print_item(void) {
             errors_fail(ERR_ARGUMENT_COUNT);
         }
         emit_action(ACTIONS_PRINT_TAB, 1);
+    } else if (lexer_take('@')) {
+        if (expressions_compile_subscripts() != 2) {
+            errors_fail(ERR_ARGUMENT_COUNT);
+        }
+        emit_action(ACTIONS_PRINT_AT, 2);
     } else {
         expressions_compile();
         emit_action(ACTIONS_PRINT_VALUE, 1);

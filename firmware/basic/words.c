@@ -8,13 +8,12 @@
 #include "statements.h"
 
 #define SLOTS 512u // power of two, more than twice the number of words
-#define ROWS_MAX 128u
 
 static const basic_config_t *config;
 
 static struct {
-    uint16_t slots[SLOTS];     // 0: free, otherwise 1 + kind and row
-    int16_t next[2][ROWS_MAX]; // chains of rows with one first word: commands, functions
+    uint16_t slots[SLOTS];           // 0: free, otherwise 1 + kind and row
+    int16_t next[2][WORDS_ROWS_MAX]; // chains of rows with one first word: commands, functions
 } words;
 
 static const char *const reserved[] = {
@@ -40,10 +39,10 @@ static const char *name_of(words_kind_t kind, size_t row) {
 }
 
 static bool is_word(uint16_t slot, words_kind_t kind, const char *text, size_t length) {
-    if ((slot - 1u) / ROWS_MAX != (unsigned)kind) {
+    if ((slot - 1u) / WORDS_ROWS_MAX != (unsigned)kind) {
         return false;
     }
-    const char *name = name_of(kind, (slot - 1u) % ROWS_MAX);
+    const char *name = name_of(kind, (slot - 1u) % WORDS_ROWS_MAX);
     for (size_t i = 0; i < length; i++) {
         if (upper(name[i]) != upper(text[i])) { // the end of the name differs as well
             return false;
@@ -68,13 +67,13 @@ static uint16_t *slot_of(words_kind_t kind, const char *text, size_t length) {
 
 // Rows in turn: a later one with the same first word comes first in the chain.
 static void add_rows(words_kind_t kind, size_t count) {
-    for (size_t row = 0; row < count && row < ROWS_MAX; row++) {
+    for (size_t row = 0; row < count && row < WORDS_ROWS_MAX; row++) {
         const char *name = name_of(kind, row);
         uint16_t *slot = slot_of(kind, name, strcspn(name, " "));
         if (*slot != 0) {
-            words.next[kind - WORDS_COMMAND][row] = (int16_t)((*slot - 1u) % ROWS_MAX);
+            words.next[kind - WORDS_COMMAND][row] = (int16_t)((*slot - 1u) % WORDS_ROWS_MAX);
         }
-        *slot = (uint16_t)(1u + kind * ROWS_MAX + row);
+        *slot = (uint16_t)(1u + kind * WORDS_ROWS_MAX + row);
     }
 }
 
@@ -90,7 +89,7 @@ void words_start(const basic_config_t *new_config) {
 
 int words_find(words_kind_t kind, const char *text, size_t length) {
     uint16_t slot = *slot_of(kind, text, length);
-    return slot != 0 ? (int)((slot - 1u) % ROWS_MAX) : WORDS_NONE;
+    return slot != 0 ? (int)((slot - 1u) % WORDS_ROWS_MAX) : WORDS_NONE;
 }
 
 int words_next(words_kind_t kind, int row) {

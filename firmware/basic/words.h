@@ -9,6 +9,7 @@
 #include "basic/basic.h"
 
 #define WORDS_NONE (-1)
+#define WORDS_ROWS_MAX 128u // of each table
 
 typedef enum {
     WORDS_STATEMENT, // row of statements_table

@@ -184,6 +184,10 @@ bool hal_tick_running(void) {
     return board.ticking;
 }
 
+const char *hal_firmware_version(void) {
+    return "1.2.3-test";
+}
+
 const char *hal_board_name(void) {
     return "test board";
 }
