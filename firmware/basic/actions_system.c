@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "pager.h"
 #include "program.h"
+#include "program_storage.h"
 #include "source_lines.h"
 #include "vm.h"
 
@@ -30,18 +31,6 @@ ACTION_BODY(end) {
     (void)count;
     actions_stop_with(VM_REQUEST_NONE);
     vm.stop = arguments->integer != 0; // NOEND: not even the end
-}
-
-ACTION_BODY(run) {
-    (void)arguments;
-    (void)count;
-    actions_stop_with(VM_REQUEST_RUN);
-}
-
-ACTION_BODY(new) {
-    (void)arguments;
-    (void)count;
-    actions_stop_with(VM_REQUEST_NEW);
 }
 
 ACTION_BODY(autosave) {
@@ -149,10 +138,16 @@ ACTION_BODY(on_error) {
 ACTION_BODY(memory) {
     (void)arguments;
     (void)count;
-    char text[80];
+    char text[160];
     size_t total = (size_t)(memory.top - memory.floor);
-    format_text(text, sizeof text, "Program %u bytes, free %u of %u bytes\r\n",
-                (unsigned)program_length(), (unsigned)memory_free(), (unsigned)total);
+    size_t code = program_code_size();
+    size_t names = (size_t)(memory.top - memory.ceiling) - MEMORY_PROMPT_RESERVE;
+    size_t variables = (size_t)(memory.heap - memory.floor) - code + names;
+    format_text(text, sizeof text,
+                "Flash:  program %u of %u bytes\r\n"
+                "Memory: code %u, variables and names %u, free %u of %u bytes\r\n",
+                (unsigned)program_length(), PROGRAM_STORAGE_MAX, (unsigned)code,
+                (unsigned)variables, (unsigned)memory_free(), (unsigned)total);
     console_print(text);
 }
 

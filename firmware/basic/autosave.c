@@ -9,7 +9,6 @@
 #include "line_editor.h"
 #include "memory.h"
 #include "program.h"
-#include "program_storage.h"
 
 #define RESERVE 1024u
 
@@ -22,7 +21,7 @@ static struct {
 
 static void append(const char *line, size_t length) {
     if (incoming.length + length + 1 > incoming.size) {
-        incoming.error = ERR_PROGRAM_TOO_LONG;
+        incoming.error = ERR_NO_MEMORY;
         return;
     }
     memcpy(incoming.text + incoming.length, line, length);
@@ -79,9 +78,5 @@ err_t autosave_read(bool *start) {
     if (incoming.error != ERR_OK) {
         return err_raise(incoming.error, "%s", "");
     }
-    err_t error = program_set(incoming.text, incoming.length);
-    if (error != ERR_OK) {
-        return error;
-    }
-    return program_storage_save(program_text(), program_length());
+    return program_set_text(incoming.text, incoming.length);
 }

@@ -19,7 +19,7 @@
 #include "memory.h"
 #include "number_text.h"
 #include "program.h"
-#include "program_storage.h"
+#include "requests.h"
 #include "symbols.h"
 #include "transfer.h"
 #include "vm.h"
@@ -176,6 +176,19 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
     return error;
 }
 
+static err_t report(err_t error) {
+    if (error != ERR_OK) {
+        vm.statement = NULL;
+        print_error(err_message());
+    }
+    return error;
+}
+
+// The program of the file that was named, if one was.
+static err_t load_requested(void) {
+    return *requests_file() != '\0' ? report(program_load(requests_file())) : ERR_OK;
+}
+
 static struct {
     const char *text;
     size_t length;
@@ -209,11 +222,13 @@ static err_t run_program(void) {
     void (*on_error)(void) = config->on_error != NULL ? config->on_error : nothing;
     for (;;) {                  // a program may say RUN
         channels_end_program(); // those the prompt has opened
-        const uint8_t *code = program_prepare();
-        if (code == NULL) {
-            return ERR_OK;
+        size_t length;
+        const char *argument = requests_argument(&length);
+        err_t error = program_compile(argument, length);
+        if (error != ERR_OK || program_code() == NULL) {
+            return report(error);
         }
-        err_t error = run(code, on_error);
+        error = run(program_code(), on_error);
         if (error == ERR_OK && vm.at_end) {
             error = run_end_routine(on_error);
         }
@@ -221,13 +236,10 @@ static err_t run_program(void) {
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
         }
-    }
-}
-
-static void report(err_t error) {
-    if (error != ERR_OK) {
-        vm.statement = NULL;
-        print_error(err_message());
+        error = load_requested();
+        if (error != ERR_OK) {
+            return error;
+        }
     }
 }
 
@@ -235,19 +247,20 @@ static void report(err_t error) {
 static void serve(vm_request_t request) {
     switch (request) {
     case VM_REQUEST_RUN:
+        if (load_requested() != ERR_OK) {
+            break;
+        }
         if (program_length() == 0) {
             report(err_raise(ERR_NO_PROGRAM, "%s", ""));
         }
         run_program();
         break;
+    case VM_REQUEST_LOAD:
+        load_requested();
+        break;
     case VM_REQUEST_NEW:
-        if (!hal_storage_is_writable()) {
-            report(err_raise(ERR_STORAGE_BUSY, "%s", ""));
-            break;
-        }
         channels_end_program();
-        program_clear();
-        report(program_storage_save("", 0));
+        report(program_set_text("", 0));
         break;
     case VM_REQUEST_RECEIVE:
         channels_end_program();
@@ -265,7 +278,7 @@ static void serve(vm_request_t request) {
     case VM_REQUEST_EDIT: {
         bool start = false;
         err_t error = editor_edit(NULL, stop_machine, &start);
-        report(error);
+        report(error != ERR_OK || start ? error : program_compile_stored());
         if (start && error == ERR_OK) {
             run_program();
         }
@@ -279,6 +292,7 @@ static void serve(vm_request_t request) {
 static void execute_line(void) {
     uint8_t *scratch = memory.scratch;
     vm.statement = NULL;
+    requests_clear();
     if (errors_try(compile_line) != ERRORS_NONE) {
         print_error(err_message());
     } else {
@@ -303,23 +317,17 @@ void basic_start(const basic_config_t *new_config) {
     help_start(config);
     words_start(config);
     memory_start(config->arena, config->arena_size);
-    program_clear();
+    program_use_text("", 0);
     if (config->banner != NULL) {
         console_print(config->banner);
     }
     report(files_start());
-    size_t length;
-    err_t error =
-        program_storage_load((char *)memory.floor, (size_t)(memory.top - memory.floor), &length);
-    report(error);
-    if (length != 0) {
-        report(program_set((const char *)memory.floor, length));
-    }
+    report(program_start());
     console_flush();
 }
 
 err_t basic_run_program(const char *source, size_t length) {
-    err_t error = program_set(source, length);
+    err_t error = program_use_text(source, length);
     if (error != ERR_OK) {
         report(error);
     } else {

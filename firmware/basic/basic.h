@@ -160,7 +160,7 @@ typedef struct {
 // Takes the configuration (which must stay valid), clears everything and prints the banner.
 void basic_start(const basic_config_t *config);
 
-// Loads `source` as the program and runs it to its end. Prints the error if there is one.
+// Runs `source`, whose lines end with \n and which has to stay valid, to its end. Prints the error if there is one.
 err_t basic_run_program(const char *source, size_t length);
 
 // One turn of the prompt: shows it, waits for a line, carries it out, prints an error if there is one.

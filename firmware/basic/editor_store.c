@@ -4,9 +4,7 @@
 #include <string.h>
 
 #include "editor_text.h"
-#include "hal/hal.h"
 #include "program.h"
-#include "program_storage.h"
 
 // Puts text behind what is there, its line ends as \n.
 static bool append(const char *bytes, size_t count) {
@@ -40,9 +38,5 @@ err_t editor_store_load(const char *file) {
 
 err_t editor_store_save(const char *file) {
     (void)file;
-    if (hal_tick_running()) {
-        return err_raise(ERR_STORAGE_BUSY, "%s", "");
-    }
-    err_t error = program_set(editor_text_flat(), editor_text_length());
-    return error == ERR_OK ? program_storage_save(program_text(), program_length()) : error;
+    return program_store_text(editor_text_flat(), editor_text_length());
 }

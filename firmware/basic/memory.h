@@ -1,6 +1,6 @@
 // The arena: everything the interpreter remembers, without a heap of its own.
 //
-//   | stack of values | frames | program text | code | heap -> ...... <- scratch | program's names |
+//   | stack of values | RUN's argument | code | heap -> ...... <- scratch | program's names |
 //
 // The heap grows upwards and holds what lasts until the next RUN (arrays, strings, names from the
 // prompt). The scratch grows downwards and is unwound: local variables at the end of a SUB, temporary

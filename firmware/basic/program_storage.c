@@ -1,14 +1,11 @@
-// The program in flash: a header page, then the text. The header is written last; the place with the
-// higher sequence number and a correct checksum counts. Context: main loop.
+// Each place: a page with a header, then the text. The header is written last; the place with the higher
+// sequence number and a correct checksum counts. Context: main loop.
 #include "program_storage.h"
 
 #include <string.h>
 
-#include "hal/hal.h"
-
 #define MAGIC 0x50424D53u // "SMBP"
 #define PLACES 2u
-#define PLACE_SIZE (HAL_STORAGE_SIZE / PLACES)
 
 typedef struct {
     uint32_t magic;
@@ -18,15 +15,18 @@ typedef struct {
     uint32_t header_crc; // of the fields above
 } header_t;
 
-// CRC-32 as of IEEE 802.3, bit by bit: programs are small and this is rare.
+// CRC-32 as of IEEE 802.3, four bits at a time.
 static uint32_t crc32(uint32_t crc, const void *bytes, size_t size) {
+    static const uint32_t table[16] = {
+        0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
+        0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
+        0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C,
+    };
     const uint8_t *p = bytes;
     crc = ~crc;
     for (size_t i = 0; i < size; i++) {
-        crc ^= p[i];
-        for (int bit = 0; bit < 8; bit++) {
-            crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
-        }
+        crc = crc >> 4 ^ table[(crc ^ p[i]) & 15];
+        crc = crc >> 4 ^ table[(crc ^ (uint32_t)p[i] >> 4) & 15];
     }
     return ~crc;
 }
@@ -35,105 +35,129 @@ static uint32_t header_crc(const header_t *header) {
     return crc32(0, header, offsetof(header_t, header_crc));
 }
 
+// ---- Reading -------------------------------------------------------------------------------------
+
 typedef enum { PLACE_EMPTY, PLACE_DAMAGED, PLACE_GOOD } place_state_t;
 
-static place_state_t read_header(unsigned place, header_t *header) {
-    hal_storage_read(place * PLACE_SIZE, header, sizeof *header);
+static const char *text_at(unsigned place) {
+    return hal_storage_map(place * PROGRAM_STORAGE_PLACE + HAL_STORAGE_PAGE);
+}
+
+static place_state_t read_place(unsigned place, header_t *header) {
+    hal_storage_read(place * PROGRAM_STORAGE_PLACE, header, sizeof *header);
     if (header->magic == UINT32_MAX) {
         return PLACE_EMPTY;
     }
     bool good = header->magic == MAGIC && header->header_crc == header_crc(header) &&
-                header->length <= PROGRAM_STORAGE_MAX;
+                header->length <= PROGRAM_STORAGE_MAX &&
+                crc32(0, text_at(place), header->length) == header->text_crc;
     return good ? PLACE_GOOD : PLACE_DAMAGED;
 }
 
-static uint32_t stored_crc(unsigned place, uint32_t length) {
-    uint32_t crc = 0;
-    uint8_t page[HAL_STORAGE_PAGE];
-    for (uint32_t offset = 0; offset < length; offset += sizeof page) {
-        uint32_t size = length - offset < sizeof page ? length - offset : sizeof page;
-        hal_storage_read(place * PLACE_SIZE + HAL_STORAGE_PAGE + offset, page, size);
-        crc = crc32(crc, page, size);
-    }
-    return crc;
+static bool is_newer(const header_t *a, const header_t *b) {
+    return (int32_t)(a->sequence - b->sequence) > 0;
 }
 
-// The place to load from, or PLACES. `damaged` becomes true if a newer one had to be passed over.
+// The place that counts, or PLACES if none does. `damaged`: the other one may have been meant to.
 static unsigned newest(header_t *best, bool *damaged) {
+    header_t headers[PLACES];
+    place_state_t states[PLACES];
     unsigned found = PLACES;
+    for (unsigned place = 0; place < PLACES; place++) {
+        states[place] = read_place(place, &headers[place]);
+        if (states[place] == PLACE_GOOD && (found == PLACES || is_newer(&headers[place], best))) {
+            found = place;
+            *best = headers[place];
+        }
+    }
     *damaged = false;
     for (unsigned place = 0; place < PLACES; place++) {
-        header_t header;
-        place_state_t state = read_header(place, &header);
-        if (state == PLACE_GOOD && stored_crc(place, header.length) != header.text_crc) {
-            state = PLACE_DAMAGED;
-        }
-        *damaged |= state == PLACE_DAMAGED;
-        if (state == PLACE_GOOD && (found == PLACES || header.sequence > best->sequence)) {
-            found = place;
-            *best = header;
-        }
+        const header_t *header = &headers[place];
+        bool older =
+            found < PLACES && header->header_crc == header_crc(header) && !is_newer(header, best);
+        *damaged |= states[place] == PLACE_DAMAGED && !older;
     }
     return found;
 }
 
-static err_t write_text(uint32_t base, const char *text, size_t length) {
-    for (size_t offset = 0; offset < length; offset += HAL_STORAGE_PAGE) {
-        uint8_t page[HAL_STORAGE_PAGE];
-        size_t size = length - offset < sizeof page ? length - offset : sizeof page;
-        memset(page, 0xFF, sizeof page);
-        memcpy(page, text + offset, size);
-        if (!hal_storage_program((uint32_t)(base + HAL_STORAGE_PAGE + offset), page)) {
-            return err_raise(ERR_STORAGE_BUSY, "%s", "");
-        }
-    }
-    return ERR_OK;
+const char *program_storage_text(size_t *length, bool *damaged) {
+    header_t header;
+    unsigned place = newest(&header, damaged);
+    *length = place < PLACES ? header.length : 0;
+    return place < PLACES ? text_at(place) : "";
 }
 
-static err_t write_header(uint32_t base, const header_t *header) {
-    uint8_t page[HAL_STORAGE_PAGE];
-    memset(page, 0xFF, sizeof page);
-    memcpy(page, header, sizeof *header);
-    if (!hal_storage_program(base, page)) {
-        return err_raise(ERR_STORAGE_BUSY, "%s", "");
-    }
-    return ERR_OK;
-}
+// ---- Writing -------------------------------------------------------------------------------------
 
-err_t program_storage_save(const char *text, size_t length) {
-    if (length > PROGRAM_STORAGE_MAX) {
-        return err_raise(ERR_PROGRAM_TOO_LONG, "%s", "");
-    }
+void program_storage_begin(program_storage_t *writer) {
     header_t old = {.sequence = 0};
     bool damaged;
     unsigned place = newest(&old, &damaged) == 0 ? 1 : 0;
-    uint32_t base = place * PLACE_SIZE;
-    for (uint32_t offset = 0; offset < HAL_STORAGE_PAGE + length; offset += HAL_STORAGE_SECTOR) {
-        if (!hal_storage_erase(base + offset)) {
-            return err_raise(ERR_STORAGE_BUSY, "%s", "");
-        }
-    }
-    err_t error = write_text(base, text, length);
-    if (error != ERR_OK) {
-        return error;
-    }
-    header_t header = {MAGIC, old.sequence + 1, (uint32_t)length, crc32(0, text, length), 0};
-    header.header_crc = header_crc(&header);
-    error = write_header(base, &header);
-    if (error == ERR_OK && stored_crc(place, header.length) != header.text_crc) {
-        return err_raise(ERR_STORAGE_FAILED, "%s", "");
-    }
-    return error;
+    memset(writer, 0, sizeof *writer);
+    writer->base = place * PROGRAM_STORAGE_PLACE;
+    writer->sequence = old.sequence + 1;
 }
 
-err_t program_storage_load(char *text, size_t size, size_t *length) {
-    header_t header;
-    bool damaged;
-    unsigned place = newest(&header, &damaged);
-    *length = 0;
-    if (place < PLACES && header.length <= size) {
-        hal_storage_read(place * PLACE_SIZE + HAL_STORAGE_PAGE, text, header.length);
-        *length = header.length;
+static err_t failure(void) {
+    return err_raise(hal_storage_is_writable() ? ERR_STORAGE_FAILED : ERR_STORAGE_BUSY, NULL);
+}
+
+// The page at hand goes to the flash; the sector is erased when its first page comes.
+static err_t write_page(program_storage_t *writer) {
+    uint32_t place = writer->base + HAL_STORAGE_PAGE + writer->written;
+    bool erases = place % HAL_STORAGE_SECTOR == 0;
+    bool first = writer->written == 0; // the header is in the same sector
+    if (first && !hal_storage_erase(writer->base)) {
+        return failure();
     }
-    return damaged ? err_raise(ERR_STORAGE_CORRUPT, "%s", "") : ERR_OK;
+    if (erases && !hal_storage_erase(place)) {
+        return failure();
+    }
+    memset(writer->page + writer->used, 0xFF, HAL_STORAGE_PAGE - writer->used);
+    if (!hal_storage_program(place, writer->page)) {
+        return failure();
+    }
+    writer->crc = crc32(writer->crc, writer->page, writer->used);
+    writer->written += writer->used;
+    writer->used = 0;
+    return ERR_OK;
+}
+
+static err_t add_byte(program_storage_t *writer, char c) {
+    if (writer->written + writer->used >= PROGRAM_STORAGE_MAX) {
+        return err_raise(ERR_PROGRAM_TOO_LONG, NULL);
+    }
+    writer->page[writer->used++] = (uint8_t)c;
+    return writer->used == HAL_STORAGE_PAGE ? write_page(writer) : ERR_OK;
+}
+
+err_t program_storage_add(program_storage_t *writer, const char *text, size_t size) {
+    for (size_t i = 0; i < size; i++) {
+        char c = text[i];
+        bool second_half = c == '\n' && writer->after_return;
+        writer->after_return = c == '\r';
+        err_t error = second_half ? ERR_OK : add_byte(writer, c == '\r' ? '\n' : c);
+        if (error != ERR_OK) {
+            return error;
+        }
+    }
+    return ERR_OK;
+}
+
+static err_t write_header(const program_storage_t *writer) {
+    uint8_t page[HAL_STORAGE_PAGE];
+    header_t header = {MAGIC, writer->sequence, writer->written, writer->crc, 0};
+    header.header_crc = header_crc(&header);
+    memset(page, 0xFF, sizeof page);
+    memcpy(page, &header, sizeof header);
+    return hal_storage_program(writer->base, page) ? ERR_OK : failure();
+}
+
+err_t program_storage_commit(program_storage_t *writer) {
+    err_t error = writer->used != 0 || writer->written == 0 ? write_page(writer) : ERR_OK;
+    const char *text = hal_storage_map(writer->base + HAL_STORAGE_PAGE);
+    if (error == ERR_OK && crc32(0, text, writer->written) != writer->crc) {
+        error = err_raise(ERR_STORAGE_FAILED, NULL);
+    }
+    return error == ERR_OK ? write_header(writer) : error;
 }

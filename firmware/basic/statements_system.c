@@ -46,20 +46,11 @@ void statements_error(void) {
     compile_optional(ACTIONS_ERROR);
 }
 
-void statements_run(void) {
-    emit_action(ACTIONS_RUN, 0);
-}
-
 // Deleting or replacing the program while it runs would saw off the branch it sits on.
 static void at_prompt_only(void) {
     if (!compiler_at_prompt()) {
         errors_fail(ERR_NOT_IN_PROGRAM);
     }
-}
-
-void statements_new(void) {
-    at_prompt_only();
-    emit_action(ACTIONS_NEW, 0);
 }
 
 void statements_autosave(void) {

@@ -9,7 +9,6 @@
 #include "hal/hal.h"
 #include "memory.h"
 #include "program.h"
-#include "program_storage.h"
 #include "xmodem.h"
 
 #define RESERVE 1024u // of the arena, left free beside a program that comes in
@@ -75,7 +74,7 @@ err_t transfer_send_file(const char *path) {
 
 static err_t take_for_program(const void *bytes, size_t size) {
     if (size > transfer.size - transfer.length) {
-        return err_raise(ERR_PROGRAM_TOO_LONG, NULL);
+        return err_raise(ERR_NO_MEMORY, NULL);
     }
     memcpy(transfer.text + transfer.length, bytes, size);
     transfer.length += size;
@@ -98,10 +97,7 @@ err_t transfer_receive_program(void) {
     }
     size_t received = transfer.length;
     if (error == ERR_OK) {
-        error = program_set(transfer.text, transfer.length);
-    }
-    if (error == ERR_OK) {
-        error = program_storage_save(program_text(), program_length());
+        error = program_set_text(transfer.text, transfer.length);
     }
     transfer.length = received;
     if (error == ERR_OK) {

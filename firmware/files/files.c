@@ -347,10 +347,8 @@ err_t files_replace(const char *path, const void *bytes, size_t size) {
     }
     if (error != ERR_OK && hal_storage_is_writable()) {
         volume_call_t call = {.path = REPLACEMENT};
-        char message[ERR_MESSAGE_SIZE];
-        strcpy(message, err_message());
         volume_write(do_remove, &call, NULL);
-        err_raise(ERR_ARGUMENT, "%s", message);
+        err_raise(error, "%s", place.text);
     }
     return error;
 }

@@ -27,7 +27,8 @@
 // the command line and leaves with a message if they are wrong.
 void hal_init(int argc, char **argv);
 
-// The BASIC program to run at start, as text, or NULL. Stays valid. (Host: FILE.bas.)
+// The BASIC program to run at start, as text with \n at the ends of lines, or NULL. Stays valid.
+// (Host: FILE.bas.)
 const char *hal_startup_program(size_t *length);
 
 // True once no more console input can come and the firmware should leave. Never on a board.

@@ -76,6 +76,18 @@ static _Noreturn void leave_with_usage(void) {
     exit(HOST_SYSTEM_EXIT_USAGE);
 }
 
+// \r\n and \r become \n.
+static void unify_line_ends(void) {
+    size_t used = 0;
+    for (size_t i = 0; i < program_length; i++) {
+        bool pair = program[i] == '\r' && i + 1 < program_length && program[i + 1] == '\n';
+        if (!pair) {
+            program[used++] = program[i] == '\r' ? '\n' : program[i];
+        }
+    }
+    program_length = used;
+}
+
 static void read_program(const char *path) {
     int file = open(path, O_RDONLY | O_CLOEXEC);
     if (file < 0) {
@@ -103,6 +115,7 @@ static void read_program(const char *path) {
         program_length += (size_t)got;
     }
     close(file);
+    unify_line_ends();
 }
 
 // N, or N and how.
