@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "args_select.h"
 #include "choices.h"
 #include "emit.h"
 #include "errors.h"
@@ -23,8 +24,16 @@ const basic_command_t *args_command(unsigned row) {
     return &config->commands[row];
 }
 
+bool args_is_command(int row) {
+    return row >= 0 && (size_t)row < config->command_count;
+}
+
 const basic_function_t *args_function(unsigned row) {
     return &config->functions[row];
+}
+
+const basic_assignment_t *args_assignment(unsigned row) {
+    return &config->assignments[row];
 }
 
 // ---- One argument --------------------------------------------------------------------------------
@@ -255,6 +264,7 @@ void args_compile_command(int row) {
     if (found == WORDS_NONE) {
         errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)first_length, first_name);
     }
+    found = args_select_row(found, behind);
     const basic_command_t *command = &config->commands[found];
     lexer_go(behind);
     unsigned count = compile_list(command->args, command->arg_count, false);
@@ -296,4 +306,19 @@ void args_compile_function(int row) {
     emit_op(OP_HOST_FUNCTION);
     emit_byte((unsigned)found);
     emit_byte(count);
+}
+
+void args_compile_assignment(int row) {
+    const basic_assignment_t *assignment = &config->assignments[row];
+    lexer_next();
+    lexer_expect('(');
+    bool else_ends = lexer_set_else_ends(false);
+    unsigned count = compile_list(assignment->args + 1, assignment->arg_count - 1, true);
+    lexer_set_else_ends(else_ends);
+    lexer_expect(')');
+    lexer_expect('=');
+    compile_argument(&assignment->args[0], false);
+    emit_op(OP_ASSIGNMENT);
+    emit_byte((unsigned)row);
+    emit_byte(count + 1);
 }

@@ -22,9 +22,15 @@ void args_compile_function(int row);
 // A BASIC_ARG_ROUTINE of a statement of the language; args_routine() makes its value a routine.
 void args_compile_routine(void);
 
+// The same for an assignment to a function: NAME(arguments) = value.
+void args_compile_assignment(int row);
+
 // ---- Running -------------------------------------------------------------------------------------
 
 void args_run(unsigned row, const value_t *values, unsigned count);
+
+// The value to be assigned is the last of `values`.
+void args_assign(unsigned row, value_t *values, unsigned count);
 
 // Leaves the result in values[0].
 void args_evaluate(unsigned row, value_t *values, unsigned count);
@@ -44,6 +50,8 @@ void args_format_limit(char *buffer, double limit);
 
 // The configuration's rows.
 const basic_command_t *args_command(unsigned row);
+bool args_is_command(int row); // there is such a row
 const basic_function_t *args_function(unsigned row);
+const basic_assignment_t *args_assignment(unsigned row);
 
 #endif

@@ -133,6 +133,23 @@ static int64_t pin_of_text(const value_t *value) {
     return gpio;
 }
 
+static basic_pin_numbers_t pin_numbers;
+
+void basic_set_pin_numbers(basic_pin_numbers_t numbers) {
+    pin_numbers = numbers;
+}
+
+static int64_t pin_of_number(const basic_arg_spec_t *spec, const value_t *value) {
+    double number = value_to_number(value);
+    if (!(number >= -0.5 && number < 255)) {
+        return -1;
+    }
+    int64_t whole = value_round(number);
+    bool board = pin_numbers == BASIC_PIN_NUMBERS_BY_ROW ? spec->flags & BASIC_ARG_BOARD_NUMBER
+                                                         : pin_numbers == BASIC_PIN_NUMBERS_BOARD;
+    return board ? pins_from_board_number((unsigned)whole) : whole;
+}
+
 static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basic_arg_t *arg) {
     char shown[32];
     if (value_is_numeric(value)) {
@@ -142,8 +159,7 @@ static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basi
             arg->integer = PINS_NONE;
             return;
         }
-        double number = value_to_number(value);
-        arg->integer = number >= -0.5 && number < PINS_COUNT ? value_round(number) : -1;
+        arg->integer = pin_of_number(spec, value);
     } else {
         arg->integer = pin_of_text(value);
     }
@@ -243,6 +259,18 @@ void args_run(unsigned row, const value_t *values, unsigned count) {
     size_t total;
     args_deliver(command->args, command->arg_count, values, count, delivered, &total);
     if (command->run(delivered, total) != ERR_OK) {
+        errors_fail_raised();
+    }
+}
+
+void args_assign(unsigned row, value_t *values, unsigned count) {
+    const basic_assignment_t *assignment = args_assignment(row);
+    value_t value = values[count - 1];
+    memmove(values + 1, values, (count - 1) * sizeof *values);
+    values[0] = value;
+    size_t total;
+    args_deliver(assignment->args, assignment->arg_count, values, count, delivered, &total);
+    if (assignment->run(delivered, total) != ERR_OK) {
         errors_fail_raised();
     }
 }

@@ -38,7 +38,8 @@ typedef enum {
     BASIC_ARG_CHOICE, // one of the words in `choices`: bare, or a string
     // expression; a number where the words are numbers      -> integer (its index), text
     BASIC_ARG_WORD, // a bare word, or a string expression                   -> text
-    BASIC_ARG_PIN,  // GPn, "GPn", or a number, which is a GPIO number. With
+    BASIC_ARG_PIN,  // GPn, "GPn", or a number: a GPIO number, or the board's with
+    // BASIC_ARG_BOARD_NUMBER; see basic_set_pin_numbers(). With
     // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
     BASIC_ARG_ROUTINE, // the name of a SUB without parameters, bare or a string expression; a literal 0
     // or blank means none                                                  -> integer
@@ -51,7 +52,11 @@ enum {
     BASIC_ARG_DEFAULT = 1 << 1,  // if left out, `fallback` is delivered and `given` stays false
     BASIC_ARG_REPEAT = 1
         << 2, // this and the following arguments repeat as a group, 0 or more times
-    BASIC_ARG_ABOVE_MIN = 1 << 3 // the minimum itself is not allowed
+    BASIC_ARG_ABOVE_MIN = 1 << 3,    // the minimum itself is not allowed
+    BASIC_ARG_BOARD_NUMBER = 1 << 4, // PIN: a bare number is the one printed beside the board's pin
+    // CHOICE: of several rows with one name, which stand together, a bare word here that is one of `choices` takes this row. A row
+    // without such an argument is taken if no other is.
+    BASIC_ARG_SELECTS = 1 << 5
 };
 
 // One argument of a command: parsing, range check, error text, HELP and the reference page in one row.
@@ -90,6 +95,10 @@ typedef struct {
     basic_run_t run;
     const char *help; // one sentence for HELP and the reference page
 } basic_command_t;
+
+// An assignment to a function, as PIN(GP2) = 1: a row with the function's name, whose args[0] is the value
+// behind the equals sign and whose further arguments are those in the parentheses.
+typedef basic_command_t basic_assignment_t;
 
 // Computes a function's value. `result` arrives as integer 0; a text result must stay valid until the
 // next call of the same function.
@@ -140,6 +149,8 @@ typedef struct {
     size_t command_count;
     const basic_function_t *functions;
     size_t function_count;
+    const basic_assignment_t *assignments; // one row for each name
+    size_t assignment_count;
     void (*background)(
         void);              // called every few statements and whenever something waits; NULL: none
     void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
@@ -176,6 +187,14 @@ void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)))
 // own: a line being typed is taken away and drawn again below. Shown at the next place where that can be
 // done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+// What a bare number stands for where a pin is wanted: what the row says, or one rule for all rows.
+typedef enum {
+    BASIC_PIN_NUMBERS_BY_ROW,
+    BASIC_PIN_NUMBERS_GPIO,
+    BASIC_PIN_NUMBERS_BOARD
+} basic_pin_numbers_t;
+void basic_set_pin_numbers(basic_pin_numbers_t numbers);
 
 // Writes `value` as PRINT does, without the leading blank. Returns `buffer`.
 char *basic_format_number(char *buffer, size_t size, double value);

@@ -68,6 +68,7 @@ typedef enum {
     OP_FUNCTION,      // n row of functions.c, n arguments
     OP_HOST_FUNCTION, // n row of the configuration, n arguments
     OP_COMMAND,       // n row of the configuration, n arguments
+    OP_ASSIGNMENT,    // n row of the configuration, n arguments, the last of them the value
     OP_ACTION,        // n row of actions.def, n arguments
     OP_DEADLINE,      // milliseconds on the stack become the time when they have passed
     OP_WAIT,          // until the time on the stack, serving events

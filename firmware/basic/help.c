@@ -34,7 +34,9 @@ static void print_word(const char *word) {
 static void print_overview(void) {
     print_line("Commands of the machine:");
     for (size_t i = 0; i < config->command_count; i++) {
-        print_word(config->commands[i].name);
+        if (i == 0 || strcmp(config->commands[i].name, config->commands[i - 1].name) != 0) {
+            print_word(config->commands[i].name);
+        }
     }
     console_fresh_line();
     print_line("Statements:");
@@ -63,12 +65,21 @@ static bool is_optional(const basic_arg_spec_t *spec) {
     return (spec->flags & (BASIC_ARG_OPTIONAL | BASIC_ARG_DEFAULT)) != 0;
 }
 
+// What is written in an argument's place: its name, or the words that tell rows of one name apart.
+static void print_place(const basic_arg_spec_t *spec) {
+    if (spec->flags & BASIC_ARG_SELECTS) {
+        console_print(spec->choices);
+    } else {
+        console_print(spec->name);
+    }
+}
+
 static void print_usage(const basic_arg_spec_t *args, size_t count) {
     for (size_t i = 0; i < count; i++) {
         bool bracket = is_optional(&args[i]) || args[i].flags & BASIC_ARG_REPEAT;
         console_print(bracket ? " [" : "");
         console_print(i > 0 ? ", " : bracket ? "" : " ");
-        console_print(args[i].name);
+        print_place(&args[i]);
         console_print(args[i].flags & BASIC_ARG_REPEAT ? " ...]" : bracket ? "]" : "");
     }
 }
@@ -80,7 +91,7 @@ static const char *kind_text(basic_arg_kind_t kind) {
     case BASIC_ARG_WORD:
         return "a word or a string";
     case BASIC_ARG_PIN:
-        return "a pin: GP0 to GP28, or its number";
+        return "a pin: GP0 to GP28, or a number";
     case BASIC_ARG_ROUTINE:
         return "the name of a SUB without parameters, or 0";
     case BASIC_ARG_RAW:
@@ -142,6 +153,16 @@ static void print_function(const basic_function_t *row) {
     print_arguments(row->args, row->arg_count);
 }
 
+static void print_assignment(const basic_assignment_t *row) {
+    console_print(row->name);
+    console_print("(");
+    print_usage(row->args + 1, row->arg_count - 1);
+    console_print(") = ");
+    print_line(row->args[0].name);
+    print_help_sentence(row->help);
+    print_arguments(row->args, row->arg_count);
+}
+
 static char upper(char c) {
     return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
 }
@@ -198,6 +219,12 @@ static bool print_language(const char *topic, size_t length) {
     for (size_t i = 0; i < config->function_count; i++) {
         if (lexer_same(topic, length, config->functions[i].name)) {
             print_function(&config->functions[i]);
+            found = true;
+        }
+    }
+    for (size_t i = 0; i < config->assignment_count; i++) {
+        if (lexer_same(topic, length, config->assignments[i].name)) {
+            print_assignment(&config->assignments[i]);
             found = true;
         }
     }

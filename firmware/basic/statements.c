@@ -3,6 +3,7 @@
 // Context: main loop, while compiling.
 #include "statements.h"
 
+#include "args.h"
 #include "base/base.h"
 #include "compiler.h"
 #include "emit.h"
@@ -118,6 +119,11 @@ const size_t statements_count = COUNT_OF_ARRAY(statements_table);
 
 static void compile_assignment(void) {
     const lexer_token_t *name = lexer_now();
+    int row = words_find(WORDS_ASSIGNMENT, name->text, name->length);
+    if (row != WORDS_NONE) {
+        args_compile_assignment(row);
+        return;
+    }
     if (words_is_reserved(name->text, name->length) ||
         words_find(WORDS_FUNCTION, name->text, name->length) != WORDS_NONE) {
         errors_fail(ERR_SYNTAX);

@@ -418,6 +418,11 @@ static void loop(void) {
             args_run(pc[0], sp, pc[1]);
             pc += 2;
             break;
+        case OP_ASSIGNMENT:
+            sp -= pc[1];
+            args_assign(pc[0], sp, pc[1]);
+            pc += 2;
+            break;
         case OP_ACTION:
             sp -= pc[1];
             vm.pc = pc + 2;

@@ -33,8 +33,10 @@ static const char *name_of(words_kind_t kind, size_t row) {
         return functions_table[row].name;
     case WORDS_COMMAND:
         return config->commands[row].name;
-    default:
+    case WORDS_HOST_FUNCTION:
         return config->functions[row].name;
+    default:
+        return config->assignments[row].name;
     }
 }
 
@@ -85,6 +87,7 @@ void words_start(const basic_config_t *new_config) {
     add_rows(WORDS_FUNCTION, functions_count);
     add_rows(WORDS_COMMAND, config->command_count);
     add_rows(WORDS_HOST_FUNCTION, config->function_count);
+    add_rows(WORDS_ASSIGNMENT, config->assignment_count); // all first words differ: no chains
 }
 
 int words_find(words_kind_t kind, const char *text, size_t length) {

@@ -16,6 +16,7 @@ typedef enum {
     WORDS_FUNCTION,  // row of functions_table
     WORDS_COMMAND,   // first row of the configuration's commands with this first word
     WORDS_HOST_FUNCTION,
+    WORDS_ASSIGNMENT, // row of the configuration's assignments
 } words_kind_t;
 
 // Fills the table.

@@ -65,6 +65,11 @@ static bool take_control(char c) {
     return true;
 }
 
+void board_assignments(const basic_assignment_t *assignments, size_t count) {
+    state.config.assignments = assignments;
+    state.config.assignment_count = count;
+}
+
 void board_start(const basic_command_t *commands, size_t command_count,
                  const basic_function_t *functions, size_t function_count) {
     state.config = (basic_config_t){
@@ -74,6 +79,8 @@ void board_start(const basic_command_t *commands, size_t command_count,
         .command_count = command_count,
         .functions = functions,
         .function_count = function_count,
+        .assignments = state.config.assignments,
+        .assignment_count = state.config.assignment_count,
         .background = count_background,
         .on_break = count_break,
         .on_clear = count_clear,

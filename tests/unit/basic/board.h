@@ -12,6 +12,9 @@
 // Everything is as after power-on; the flash is empty.
 void board_reset(void);
 
+// Assignments of the next start.
+void board_assignments(const basic_assignment_t *assignments, size_t count);
+
 // Starts the language on this board with these rows.
 void board_start(const basic_command_t *commands, size_t command_count,
                  const basic_function_t *functions, size_t function_count);

@@ -1,0 +1,108 @@
+// Commands of one name that differ in a word among their arguments: SETPIN GP2, DIN and SETPIN GP2,
+// PWM are rows of their own. Context: main loop, while compiling.
+#include "args_select.h"
+
+#include <string.h>
+
+#include "args.h"
+#include "base/base.h"
+#include "choices.h"
+#include "errors.h"
+#include "lexer.h"
+#include "words.h"
+
+// The argument whose word takes the row; NULL: the row has none.
+static const basic_arg_spec_t *selector_of(const basic_command_t *row) {
+    for (size_t i = 0; i < row->arg_count; i++) {
+        if (row->args[i].flags & BASIC_ARG_SELECTS) {
+            return &row->args[i];
+        }
+    }
+    return NULL;
+}
+
+// Goes to the argument at `index` of those that start at `start`.
+static void go_to_argument(const char *start, size_t index) {
+    unsigned depth = 0;
+    lexer_go(start);
+    while (index > 0 && !lexer_at_end()) {
+        depth += lexer_is('(');
+        depth -= depth > 0 && lexer_is(')');
+        index -= depth == 0 && lexer_is(',');
+        lexer_next();
+    }
+}
+
+static bool is_selected(const basic_command_t *row, const char *start) {
+    const basic_arg_spec_t *selector = selector_of(row);
+    if (selector == NULL) {
+        return false;
+    }
+    go_to_argument(start, (size_t)(selector - row->args));
+    return lexer_now()->kind == LEXER_NAME &&
+           choices_find(selector->choices, lexer_now()->text, lexer_now()->length) >= 0;
+}
+
+static bool has_name(int row, const char *name) {
+    return strcmp(args_command((unsigned)row)->name, name) == 0;
+}
+
+// The words of all rows with this name, in the order of the rows, "A, B, C"; dots where the buffer
+// ends. Returns the first place in the list of arguments where one of them is expected.
+static size_t list_words(int row, char *buffer, size_t size) {
+    const char *name = args_command((unsigned)row)->name;
+    size_t used = 0;
+    size_t place = SIZE_MAX;
+    while (row > 0 && has_name(row - 1, name)) {
+        row--;
+    }
+    for (; args_is_command(row) && has_name(row, name); row++) {
+        const basic_command_t *command = args_command((unsigned)row);
+        size_t index = (size_t)(selector_of(command) - command->args);
+        place = index < place ? index : place;
+        if (used < size - 1) {
+            used += used > 0 ? format_text(buffer + used, size - used, "%s", ", ") : 0;
+            choices_list(command->args[index].choices, buffer + used, size - used);
+            used += strlen(buffer + used);
+        }
+    }
+    if (used + 4 > size) {
+        memcpy(buffer + size - 4, "...", 4);
+    }
+    return place;
+}
+
+// Only when each of the rows has an argument that selects it.
+static _Noreturn void fail_selection(int row, const char *start) {
+    const basic_command_t *command = args_command((unsigned)row);
+    const char *argument = selector_of(command)->name;
+    char words[100];
+    go_to_argument(start, list_words(row, words, sizeof words));
+    if (lexer_at_end() || lexer_is(',')) {
+        errors_fail_with(ERR_ARGUMENTS_MISSING, "%s", argument);
+    }
+    const lexer_token_t *word = lexer_now();
+    errors_fail_with(ERR_ARGUMENT, "%s: %.*s is invalid (valid is %s)", argument, (int)word->length,
+                     word->text, words);
+}
+
+int args_select_row(int row, const char *start) {
+    const char *name = args_command((unsigned)row)->name;
+    int fallback = WORDS_NONE;
+    int first = row;
+    for (; row != WORDS_NONE; row = words_next(WORDS_COMMAND, row)) {
+        if (!has_name(row, name)) {
+            continue;
+        }
+        if (is_selected(args_command((unsigned)row), start)) {
+            return row;
+        }
+        if (selector_of(args_command((unsigned)row)) == NULL) {
+            fallback = row;
+        }
+    }
+    if (fallback == WORDS_NONE) {
+        fail_selection(first, start);
+    }
+    return fallback;
+}
