@@ -36,6 +36,7 @@ LEVELS = [
         "dcd_rp2040_irq",
         "usb_irq",
         "uart_irq",
+        "on_edge",
         "hardware_alarm_irq_handler",
         "alarm_pool_irq_handler",
     ],
@@ -46,7 +47,8 @@ LEVELS = [
 # Who may call through a pointer, and whom. Nobody: the boot ROM, or a hook that is never set.
 POINTERS: dict[str, list[str]] = {
     r"alarm_pool_irq_handler": ["timer_task"],
-    r"hardware_alarm_irq_handler": ["on_alarm"],
+    r"hardware_alarm_irq_handler": ["on_alarm", "call_handler"],
+    r"call_handler": ["run_due"],
     r"tud_task_ext": ["cdcd_xfer_cb", "resetd_xfer_cb", "process_control_request"],
     r"process_control_request|process_get_descriptor|usbd_control_xfer_cb|configuration_reset": [
         "cdcd_control_xfer_cb",

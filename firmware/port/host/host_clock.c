@@ -2,6 +2,7 @@
 #include "host_clock.h"
 
 #include "hal/hal.h"
+#include "host_alarm.h"
 #include "host_inputs.h"
 #include "host_tick.h"
 
@@ -19,22 +20,38 @@ uint64_t hal_time_us(void) {
     return clock_now_ns / 1000;
 }
 
+// The next event that is no tick.
+static uint64_t next_other_ns(void) {
+    uint64_t input_ns = host_inputs_next_ns();
+    uint64_t alarm_ns = host_alarm_next_ns();
+    return input_ns < alarm_ns ? input_ns : alarm_ns;
+}
+
 uint64_t host_clock_next_event_ns(void) {
     uint64_t tick_ns = host_tick_next_ns();
-    uint64_t input_ns = host_inputs_next_ns();
-    return tick_ns < input_ns ? tick_ns : input_ns;
+    uint64_t other_ns = next_other_ns();
+    return tick_ns < other_ns ? tick_ns : other_ns;
+}
+
+// The input edge or the alarm that is due at `now_ns`. True: something for the main loop to see.
+static bool run_other(uint64_t now_ns) {
+    clock_now_ns = now_ns;
+    if (host_inputs_next_ns() <= now_ns) {
+        host_inputs_apply(now_ns);
+        return true;
+    }
+    host_alarm_run();
+    return false;
 }
 
 bool host_clock_run(uint64_t until_ns, bool stop_on_news) {
     bool news = false;
     while (host_clock_next_event_ns() <= until_ns) {
-        uint64_t input_ns = host_inputs_next_ns();
-        if (input_ns <= host_tick_next_ns()) {
-            clock_now_ns = input_ns;
-            host_inputs_apply(input_ns);
-            news = true;
+        uint64_t other_ns = next_other_ns();
+        if (other_ns <= host_tick_next_ns()) {
+            news |= run_other(other_ns);
         } else {
-            uint64_t before_ns = input_ns <= until_ns ? input_ns - 1 : until_ns;
+            uint64_t before_ns = other_ns <= until_ns ? other_ns - 1 : until_ns;
             news |= host_tick_run(before_ns, stop_on_news);
         }
         if (news && stop_on_news) {

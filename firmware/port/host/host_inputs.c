@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "hal/hal.h"
+#include "host_analog.h"
 #include "host_clock.h"
 #include "host_pads.h"
 #include "host_system.h"
@@ -18,9 +19,13 @@
 typedef struct {
     uint64_t time_ns;
     uint32_t line;
-    uint8_t gpio;
+    uint8_t gpio; // or TEMPERATURE
+    bool is_analog;
     bool level;
+    double value; // volts, or degrees Celsius
 } event_t;
+
+#define TEMPERATURE 0xFFu
 
 static struct {
     event_t *events;
@@ -43,6 +48,14 @@ static const char *read_number(const char *text, char end_char, int digits_max, 
     return digits > 0 && *text == end_char ? text + 1 : NULL;
 }
 
+// A number with its unit behind it. False: it is something else.
+static bool read_quantity(const char *text, char unit, event_t *event) {
+    char *end;
+    event->value = strtod(text, &end);
+    event->is_analog = end != text && end[0] == unit && end[1] == '\0';
+    return event->is_analog;
+}
+
 // Returns what is wrong with the line, or NULL.
 static const char *parse_line(const char *line, event_t *event) {
     uint64_t gpio;
@@ -51,15 +64,23 @@ static const char *parse_line(const char *line, event_t *event) {
     if (rest == NULL) {
         return "time_ns must be a whole number of nanoseconds, followed by a comma";
     }
+    event->is_analog = false;
+    if (strncmp(rest, "TEMP,", 5) == 0) {
+        event->gpio = TEMPERATURE;
+        return read_quantity(rest + 5, 'C', event) ? NULL : "a temperature is for instance 25.5C";
+    }
     rest = read_number(rest, ',', 3, &gpio);
     if (rest == NULL || gpio >= PINS_COUNT) {
-        return "gpio must be 0 to 29, followed by a comma";
+        return "gpio must be 0 to 29 or TEMP, followed by a comma";
+    }
+    event->gpio = (uint8_t)gpio;
+    if (read_quantity(rest, 'V', event)) {
+        return NULL;
     }
     rest = read_number(rest, '\0', 1, &level);
     if (rest == NULL || level > 1) {
-        return "level must be 0 or 1";
+        return "level must be 0 or 1, or a voltage, for instance 1.65V";
     }
-    event->gpio = (uint8_t)gpio;
     event->level = level == 1;
     return NULL;
 }
@@ -122,9 +143,18 @@ uint64_t host_inputs_next_ns(void) {
     return inputs.next < inputs.count ? inputs.events[inputs.next].time_ns : HOST_CLOCK_NEVER;
 }
 
+static void apply(const event_t *event) {
+    if (!event->is_analog) {
+        host_pads_drive(event->gpio, event->level);
+    } else if (event->gpio == TEMPERATURE) {
+        host_analog_set_temperature(event->value);
+    } else {
+        host_analog_set_volts(event->gpio, event->value);
+    }
+}
+
 void host_inputs_apply(uint64_t now_ns) {
     for (; host_inputs_next_ns() <= now_ns && inputs.next < inputs.count; inputs.next++) {
-        const event_t *event = &inputs.events[inputs.next];
-        host_pads_drive(event->gpio, event->level);
+        apply(&inputs.events[inputs.next]);
     }
 }

@@ -3,7 +3,10 @@
 #include "host_pads.h"
 
 #include "hal/hal.h"
+#include "hal/hal_io.h"
 #include "host_clock.h"
+#include "host_counters.h"
+#include "host_pwm.h"
 #include "host_system.h"
 #include "host_trace.h"
 #include "simulate.h"
@@ -23,6 +26,7 @@ static void show(uint32_t levels, uint32_t recorded) {
     pads.levels = levels;
     if (changed != 0) {
         host_trace_edges(host_clock_now_ns(), changed & recorded, levels);
+        host_counters_edges(host_clock_now_ns(), changed, levels);
         simulate_edges(host_clock_now_ns(), changed, levels);
     }
 }
@@ -51,7 +55,8 @@ void hal_pins_clear(uint32_t mask) {
 }
 
 uint32_t hal_pins_read(void) {
-    return pads.levels;
+    uint32_t pwm = host_pwm_pins();
+    return pwm == 0 ? pads.levels : (pads.levels & ~pwm) | host_pwm_levels();
 }
 
 static uint32_t checked_mask(unsigned gpio) {
@@ -68,6 +73,7 @@ static void set_bits(uint32_t *word, uint32_t mask, bool on) {
 void hal_pin_output(unsigned gpio, bool level) {
     uint32_t mask = checked_mask(gpio);
     uint32_t before = pads.outputs;
+    host_pwm_remove(gpio);
     pads.outputs |= mask;
     pads.pull_up &= ~mask;
     set_bits(&pads.output_levels, mask, level);
@@ -77,6 +83,7 @@ void hal_pin_output(unsigned gpio, bool level) {
 void hal_pin_input(unsigned gpio, hal_pull_t pull) {
     uint32_t mask = checked_mask(gpio);
     uint32_t before = pads.outputs;
+    host_pwm_remove(gpio);
     pads.outputs &= ~mask;
     set_bits(&pads.pull_up, mask, pull == HAL_PULL_UP);
     settle(before);
@@ -84,6 +91,16 @@ void hal_pin_input(unsigned gpio, hal_pull_t pull) {
 
 void hal_pin_release(unsigned gpio) {
     hal_pin_input(gpio, HAL_PULL_NONE);
+}
+
+void hal_pin_analog(unsigned gpio) {
+    hal_pin_input(gpio, HAL_PULL_NONE);
+}
+
+// What the pad shows without its slice is low: it counts as an input nobody drives.
+void hal_pin_pwm(unsigned gpio) {
+    hal_pin_input(gpio, HAL_PULL_NONE);
+    host_pwm_add(gpio);
 }
 
 void host_pads_drive(unsigned gpio, bool level) {

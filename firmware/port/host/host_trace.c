@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "host_clock.h"
+#include "host_pwm.h"
 #include "host_system.h"
 
 #define BUFFER_SIZE 65536
@@ -46,7 +48,14 @@ static void append_number(uint64_t value) {
     }
 }
 
-static void append_row(uint64_t time_ns, unsigned gpio, unsigned level) {
+bool host_trace_is_open(void) {
+    return trace.file >= 0;
+}
+
+void host_trace_row(uint64_t time_ns, unsigned gpio, bool level) {
+    if (trace.file < 0) {
+        return;
+    }
     if (trace.used > BUFFER_SIZE - ROW_SIZE_MAX) {
         write_out();
     }
@@ -54,7 +63,7 @@ static void append_row(uint64_t time_ns, unsigned gpio, unsigned level) {
     trace.buffer[trace.used++] = ',';
     append_number(gpio);
     trace.buffer[trace.used++] = ',';
-    trace.buffer[trace.used++] = (char)('0' + level);
+    trace.buffer[trace.used++] = level ? '1' : '0';
     trace.buffer[trace.used++] = '\n';
 }
 
@@ -73,14 +82,16 @@ void host_trace_edges(uint64_t time_ns, uint32_t changed, uint32_t levels) {
     if (trace.file < 0) {
         return;
     }
+    host_pwm_record(time_ns);
     for (; changed != 0; changed &= changed - 1) {
         unsigned gpio = (unsigned)__builtin_ctz(changed);
-        append_row(time_ns, gpio, (levels >> gpio) & 1u);
+        host_trace_row(time_ns, gpio, (levels >> gpio & 1u) != 0);
     }
 }
 
 void host_trace_close(void) {
     if (trace.file >= 0) {
+        host_pwm_record(host_clock_now_ns());
         write_out();
         close(trace.file);
         trace.file = -1;

@@ -6,6 +6,7 @@
 #ifndef HOST_TRACE_H
 #define HOST_TRACE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 // Starts recording. Leaves the program with a message if the file cannot be written. Context: main.
@@ -14,6 +15,11 @@ void host_trace_open(const char *path);
 // Records the pins in `changed` with their new `levels`. Costs next to nothing while not recording.
 // Context: any.
 void host_trace_edges(uint64_t time_ns, uint32_t changed, uint32_t levels);
+
+bool host_trace_is_open(void);
+
+// One row as it is; no effect while not recording. For host_pwm.c, whose edges are found when they are wanted.
+void host_trace_row(uint64_t time_ns, unsigned gpio, bool level);
 
 // Writes what is still buffered. No effect if not recording. Context: main.
 void host_trace_close(void);

@@ -1,7 +1,9 @@
 // Pins as plain inputs and outputs. The UART console's pins go to whoever wants them, and come back to
 // the console when both are free again. Context: main.
 #include "hal/hal.h"
+#include "hal/hal_io.h"
 
+#include "hardware/adc.h"
 #include "hardware/gpio.h"
 
 #include "rp2_port.h"
@@ -28,6 +30,16 @@ void hal_pin_input(unsigned gpio, hal_pull_t pull) {
     gpio_set_dir(gpio, GPIO_IN);
     gpio_set_pulls(gpio, pull == HAL_PULL_UP, pull == HAL_PULL_DOWN);
     gpio_set_function(gpio, GPIO_FUNC_SIO);
+}
+
+void hal_pin_analog(unsigned gpio) {
+    adc_gpio_init(gpio);
+}
+
+void hal_pin_pwm(unsigned gpio) {
+    take(gpio);
+    gpio_disable_pulls(gpio);
+    gpio_set_function(gpio, GPIO_FUNC_PWM);
 }
 
 void hal_pin_release(unsigned gpio) {

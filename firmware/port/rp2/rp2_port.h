@@ -16,6 +16,7 @@
 void rp2_tick_init(void);
 void rp2_governor_init(void);
 void rp2_idle_init(void);
+void rp2_alarm_init(void);
 void rp2_console_init(void);
 
 // ---- Faults ---------------------------------------------------------------------------------------

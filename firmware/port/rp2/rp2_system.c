@@ -15,6 +15,7 @@ void hal_init(int argc, char **argv) {
     rp2_stack_guard();
     rp2_fault_init();
     rp2_idle_init();
+    rp2_alarm_init();
     rp2_tick_init();
     rp2_governor_init();
     rp2_console_init();
