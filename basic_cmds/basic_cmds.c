@@ -4,7 +4,9 @@
 
 #include "basic_cmds/configure.h"
 #include "basic_cmds/control.h"
+#include "basic_cmds/pin_values.h"
 #include "basic_cmds/report.h"
+#include "basic_cmds/setpin.h"
 #include "stepper/stepper.h"
 
 #define CTRL_F 6
@@ -179,15 +181,49 @@ const basic_command_t basic_cmds_commands[] = {
     {"STEPPER GCODE", ARGS(gcode_args), control_gcode_words,
      "Queues G-code given as words and expressions"},
     {"STEPPER STATUS", .run = report_status, .help = "Shows state, positions and configuration"},
+    {"SETPIN", ARGS(setpin_off_args), setpin_off, "Gives a pin back"},
+    {"SETPIN", ARGS(setpin_input_args), setpin_input, "Makes a pin a digital input"},
+    {"SETPIN", ARGS(setpin_output_args), setpin_output, "Makes a pin a digital output"},
+    {"SETPIN", ARGS(setpin_analog_args), setpin_analog, "Makes a pin an analog input"},
+    {"SETPIN", ARGS(setpin_frequency_args), setpin_frequency, "Measures the frequency at a pin"},
+    {"SETPIN", ARGS(setpin_period_args), setpin_period, "Measures the period at a pin"},
+    {"SETPIN", ARGS(setpin_counter_args), setpin_counter, "Counts at a pin"},
+    {"SETPIN", ARGS(setpin_interrupt_args), setpin_interrupt, "Calls a SUB when a pin changes"},
+    {"SETPIN", ARGS(setpin_pwm_args), setpin_pwm, "Gives a pin to its PWM slice"},
+    {"PULSE", ARGS(pin_values_pulse_args), pin_values_pulse, "Inverts an output for a time"},
+    {"PWM", ARGS(pin_values_pwm_args), pin_values_pwm,
+     "Makes a rectangular wave; what is left out stays as it is"},
+    {"PWM", ARGS(pin_values_pwm_off_args), pin_values_pwm_off, "Ends it"},
+    {"PWM SYNC", ARGS(pin_values_sync_args), pin_values_sync, "Starts several slices together"},
+    {"SERVO", ARGS(pin_values_servo_args), pin_values_servo, "Makes the pulses for model servos"},
+    {"SERVO", ARGS(pin_values_pwm_off_args), pin_values_pwm_off, "Ends them"},
 };
 const size_t basic_cmds_command_count = COUNT_OF_ARRAY(basic_cmds_commands);
 
 const basic_function_t basic_cmds_functions[] = {
     {"PEEK", "STEPPER", ARGS(peek_args), report_peek, "State of the motion system"},
+    {"PIN", NULL, ARGS(pin_values_read_args), pin_values_read,
+     "Value of a pin as its SETPIN says; the level, if another command has the pin"},
+    {"PIN", "TEMP", .evaluate = pin_values_temperature,
+     .help = "Temperature of the chip in degrees Celsius"},
+    {"PORT", NULL, ARGS(pin_values_read_port_args), pin_values_read_port,
+     "Levels of several pins at one time as the bits of a number"},
 };
 const size_t basic_cmds_function_count = COUNT_OF_ARRAY(basic_cmds_functions);
 
+const basic_assignment_t basic_cmds_assignments[] = {
+    {"PIN", ARGS(pin_values_write_args), pin_values_write, "Sets an output"},
+    {"PORT", ARGS(pin_values_write_port_args), pin_values_write_port,
+     "Sets several outputs at one time"},
+};
+const size_t basic_cmds_assignment_count = COUNT_OF_ARRAY(basic_cmds_assignments);
+
+void basic_cmds_clear(void) {
+    setpin_clear();
+}
+
 void basic_cmds_background(void) {
+    setpin_background();
     if (stepper_next_event() == STEPPER_EVENT_ESTOP) {
         basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
     }

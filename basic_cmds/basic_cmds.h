@@ -10,6 +10,11 @@ extern const basic_command_t basic_cmds_commands[];
 extern const size_t basic_cmds_command_count;
 extern const basic_function_t basic_cmds_functions[];
 extern const size_t basic_cmds_function_count;
+extern const basic_assignment_t basic_cmds_assignments[];
+extern const size_t basic_cmds_assignment_count;
+
+// A new program or RUN: what the last program made of pins is put back.
+void basic_cmds_clear(void);
 
 // Tells the user what the machine did without being asked; for the language's background hook.
 void basic_cmds_background(void);

@@ -16,6 +16,7 @@ static void start_basic(void) {
         .background = basic_cmds_background,
         .on_break = basic_cmds_break,
         .on_control = basic_cmds_control,
+        .on_clear = basic_cmds_clear,
         .banner = banner,
     };
     config.arena = arena;
@@ -24,6 +25,8 @@ static void start_basic(void) {
     config.command_count = basic_cmds_command_count;
     config.functions = basic_cmds_functions;
     config.function_count = basic_cmds_function_count;
+    config.assignments = basic_cmds_assignments;
+    config.assignment_count = basic_cmds_assignment_count;
     basic_start(&config);
 }
 

@@ -16,6 +16,11 @@ static bool has(const basic_arg_spec_t *arg, unsigned flag) {
     return (arg->flags & flag) != 0;
 }
 
+// What is written in an argument's place: its name, or the words that tell rows of one name apart.
+static const char *place_of(const basic_arg_spec_t *arg) {
+    return has(arg, BASIC_ARG_SELECTS) ? arg->choices : arg->name;
+}
+
 // " axis, step_pin [, enable_pin] ..." as the reference of the command set writes it.
 static void print_syntax(const basic_arg_spec_t *args, size_t count) {
     bool repeating = false;
@@ -23,11 +28,11 @@ static void print_syntax(const basic_arg_spec_t *args, size_t count) {
         const char *comma = i > 0 ? ", " : "";
         if (has(&args[i], BASIC_ARG_REPEAT)) {
             repeating = true;
-            printf(" [%s%s", comma, args[i].name);
+            printf(" [%s%s", comma, place_of(&args[i]));
         } else if (has(&args[i], BASIC_ARG_OPTIONAL) && !repeating) {
-            printf(i > 0 ? " [%s%s]" : "[%s%s]", comma, args[i].name);
+            printf(i > 0 ? " [%s%s]" : "[%s%s]", comma, place_of(&args[i]));
         } else {
-            printf("%s%s", comma, args[i].name);
+            printf("%s%s", comma, place_of(&args[i]));
         }
     }
     printf("%s", repeating ? "] ..." : "");
@@ -100,6 +105,13 @@ static void print_function(const basic_function_t *function) {
     print_args(function->args, function->arg_count);
 }
 
+static void print_assignment(const basic_assignment_t *row) {
+    printf("## %s(...) =\n\n```\n%s(", row->name, row->name);
+    print_syntax(row->args + 1, row->arg_count - 1);
+    printf(") = %s\n```\n\n%s.\n\n", row->args[0].name, row->help);
+    print_args(row->args, row->arg_count);
+}
+
 int main(void) {
     printf("# Command reference\n\n"
            "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
@@ -114,6 +126,9 @@ int main(void) {
     }
     for (size_t i = 0; i < basic_cmds_function_count; i++) {
         print_function(&basic_cmds_functions[i]);
+    }
+    for (size_t i = 0; i < basic_cmds_assignment_count; i++) {
+        print_assignment(&basic_cmds_assignments[i]);
     }
     return 0;
 }
