@@ -58,6 +58,7 @@ bool console_is_break(int byte) {
 
 void console_set_raw(bool raw) {
     console.raw = raw;
+    hal_console_set_raw(raw);
 }
 
 bool console_is_busy(void) {

@@ -61,10 +61,17 @@ static void send_byte(uint8_t byte) {
     send_bytes(&byte, 1);
 }
 
-static void wait_for_silence(void) {
+// True if the last bytes before it say that the transfer is cancelled.
+static bool wait_for_silence(void) {
     uint64_t until_us = hal_time_us() + SILENCE_US;
-    while (take(BYTE_US) >= 0 && hal_time_us() < until_us) {
+    int before = -1;
+    int last = -1;
+    int byte;
+    while ((byte = take(BYTE_US)) >= 0 && hal_time_us() < until_us) {
+        before = last;
+        last = byte;
     }
+    return before == CAN && last == CAN;
 }
 
 // Tells the other side, and lets pass what it still sends: the prompt would take it for commands.
@@ -172,7 +179,9 @@ static err_t ask_again(void) {
     if (++transfer.failures >= TRIES_MAX) {
         return fail(transfer.begun ? "too many errors" : "no answer");
     }
-    wait_for_silence();
+    if (wait_for_silence()) {
+        return fail("cancelled");
+    }
     send_byte(NAK);
     return ERR_OK;
 }

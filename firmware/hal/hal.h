@@ -112,6 +112,10 @@ size_t hal_console_read(uint8_t *bytes, size_t size);
 // may therefore stand behind input that nobody takes. False: Ctrl-C comes ahead of all input.
 bool hal_console_break_is_inband(void);
 
+// While on, every byte received is data: a protocol has the console. (Otherwise the host port takes Ctrl-D
+// from a terminal for the end of input.)
+void hal_console_set_raw(bool raw);
+
 // Takes up to `size` bytes for sending and returns how many it took; 0 if the way is full just now.
 // A board drops output for USB while no terminal is connected.
 size_t hal_console_write(const uint8_t *bytes, size_t size);

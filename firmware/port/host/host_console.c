@@ -28,6 +28,7 @@ static struct {
     queue_t input;
     queue_t output;
     bool at_end;
+    bool raw;              // Ctrl-D is data
     bool came;             // input, since host_console_take_came()
     uint64_t changes;      // times input came or was taken
     uint64_t changes_seen; // as of the last host_console_has_news()
@@ -81,7 +82,8 @@ static void take_input(void) {
         console.at_end = true;
         return;
     }
-    uint8_t *ctrl_d = host_terminal_is_raw() ? memchr(to, KEY_CTRL_D, (size_t)got) : NULL;
+    bool is_key = host_terminal_is_raw() && !console.raw;
+    uint8_t *ctrl_d = is_key ? memchr(to, KEY_CTRL_D, (size_t)got) : NULL;
     if (ctrl_d != NULL) {
         console.at_end = true;
         got = ctrl_d - to;
@@ -106,6 +108,10 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
     console.input.start += count;
     console.changes += count > 0;
     return count;
+}
+
+void hal_console_set_raw(bool raw) {
+    console.raw = raw;
 }
 
 // Not on a terminal: there SIGINT is Ctrl-C.

@@ -49,6 +49,11 @@ void rp2_console_on_usb_line(bool connected) {
     }
 }
 
+// The port itself gives no byte a meaning.
+void hal_console_set_raw(bool raw) {
+    (void)raw;
+}
+
 bool hal_console_break_is_inband(void) {
     return true;
 }

@@ -140,6 +140,10 @@ size_t hal_console_read(uint8_t *bytes, size_t size) {
     return count;
 }
 
+void hal_console_set_raw(bool raw) {
+    (void)raw;
+}
+
 bool hal_console_break_is_inband(void) {
     return !board.piped;
 }
