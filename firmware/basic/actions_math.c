@@ -73,8 +73,8 @@ void actions_sort(value_t *arguments, unsigned count) {
     }
     int64_t base = array->base;
     int64_t flags = in_range(integer_or(&arguments[2], 0), 0, SORT_FLAGS, "flags");
-    int64_t first = in_range(integer_or(&arguments[3], base), base, base + array->count - 1,
-                             "start");
+    int64_t first =
+        in_range(integer_or(&arguments[3], base), base, base + array->count - 1, "start");
     int64_t rest = array->count - (first - base);
     int64_t wanted = in_range(integer_or(&arguments[4], rest), 1, rest, "count");
     const sort_t job = {

@@ -151,10 +151,18 @@ static void text_operator(code_op_t op, value_t *values) {
     value_set_text(values, text, length);
 }
 
+static void wrapping_operator(code_op_t op, value_t *values) {
+    uint64_t left = (uint64_t)values[0].integer;
+    uint64_t right = (uint64_t)values[1].integer;
+    values[0].integer = wrapped(op == OP_MULTIPLY ? left * right
+                                : op == OP_ADD    ? left + right
+                                                  : left - right);
+}
+
 // + - * / : integers stay integers, except with /.
 static void basic_operator(code_op_t op, value_t *values) {
-    if (op == OP_MULTIPLY && values[0].type == VALUE_INTEGER && values[1].type == VALUE_INTEGER) {
-        values[0].integer = wrapped((uint64_t)values[0].integer * (uint64_t)values[1].integer);
+    if (op != OP_DIVIDE && values[0].type == VALUE_INTEGER && values[1].type == VALUE_INTEGER) {
+        wrapping_operator(op, values);
         return;
     }
     double left = value_to_number(&values[0]);

@@ -189,8 +189,8 @@ static void checksum(value_t *arguments, unsigned count, value_t *result, unsign
         errors_fail(ERR_EXPECTED_STRING);
     }
     bool is_text = arguments[0].type == VALUE_STRING;
-    uint32_t size = is_text ? arguments[0].length
-                            : ((const variables_array_t *)arguments[0].data)->count;
+    uint32_t size =
+        is_text ? arguments[0].length : ((const variables_array_t *)arguments[0].data)->count;
     int64_t length = argument_or(arguments, count, 1, size);
     if (length < 0 || length > size) {
         errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
