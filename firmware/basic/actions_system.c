@@ -11,6 +11,7 @@
 #include "memory.h"
 #include "pager.h"
 #include "program.h"
+#include "requests.h"
 #include "program_storage.h"
 #include "source_lines.h"
 #include "vm.h"
@@ -40,9 +41,7 @@ ACTION_BODY(autosave) {
 }
 
 ACTION_BODY(edit) {
-    (void)arguments;
-    (void)count;
-    actions_stop_with(VM_REQUEST_EDIT);
+    requests_make(VM_REQUEST_EDIT, count != 0 ? arguments : NULL, NULL);
 }
 
 ACTION_BODY(timer) {

@@ -277,7 +277,11 @@ static void serve(vm_request_t request) {
     }
     case VM_REQUEST_EDIT: {
         bool start = false;
-        err_t error = editor_edit(NULL, stop_machine, &start);
+        const char *file = *requests_file() != '\0' ? requests_file() : NULL;
+        err_t error = editor_edit(file, stop_machine, &start);
+        if (error == ERR_OK && start && file != NULL) {
+            error = program_load(file);
+        }
         report(error != ERR_OK || start ? error : program_compile_stored());
         if (start && error == ERR_OK) {
             run_program();

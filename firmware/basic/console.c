@@ -29,6 +29,7 @@ static struct {
     bool flushing;
     bool polling;
     bool raw;
+    bool full_screen;
     bool break_pending;
     bool lost_input;
     uint64_t full_since_us; // 0: the ring is not full
@@ -54,6 +55,10 @@ void console_set_break_key(int key) {
 
 bool console_is_break(int byte) {
     return byte > 0 && byte == (console.running ? console.break_key : CTRL_C);
+}
+
+void console_set_full_screen(bool on) {
+    console.full_screen = on;
 }
 
 void console_set_raw(bool raw) {
@@ -101,7 +106,7 @@ static unsigned input_room(void) {
 }
 
 static bool watches_break(void) {
-    return (console.running || console.flushing) && !console.raw;
+    return (console.running || console.flushing) && !console.raw && !console.full_screen;
 }
 
 bool console_offer_control(int byte) {
@@ -112,7 +117,7 @@ bool console_offer_control(int byte) {
 // control characters do not come from a keyboard they wait for their turn: what a script does must not
 // depend on how far ahead of it the script is read.
 static bool acts_at_once(uint8_t byte) {
-    if (console.raw) {
+    if (console.raw || console.full_screen) {
         return false;
     }
     if (console_is_break(byte) && watches_break()) {

@@ -31,6 +31,9 @@ bool console_is_break(int byte);
 // While on, every byte is input and none acts by itself: for protocols whose bytes mean something else.
 void console_set_raw(bool raw);
 
+// While on, every byte is a key for whoever owns the screen. In contrast to raw, notices may come.
+void console_set_full_screen(bool on);
+
 // Offers a control character whose turn as input has come; true: it was taken.
 bool console_offer_control(int byte);
 

@@ -15,10 +15,12 @@
 #include "hal/hal.h"
 #include "keys.h"
 #include "memory.h"
+#include "program.h"
 
-#define RESERVE 2048u            // stays free in the arena: what keeping the text needs
-#define SIZE_WAIT_US 150000u     // how long the terminal may take to tell its size
-#define DRAW_AT_LEAST_US 300000u // so often something is seen of a long paste
+#define RESERVE 2048u             // stays free in the arena: what keeping the text needs
+#define ROOM_WANTED (32u * 1024u) // to write in; if there is less, variables give way
+#define SIZE_WAIT_US 150000u      // how long the terminal may take to tell its size
+#define DRAW_AT_LEAST_US 300000u  // so often something is seen of a long paste
 #define ROWS_LEAST 6u
 #define ROWS_MOST 100u
 #define COLUMNS_MOST 255u
@@ -150,6 +152,9 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
     unsigned rows;
     unsigned columns;
     int key = ask_for_size(&rows, &columns);
+    if (memory_free() < editor_store_size(file) + ROOM_WANTED) {
+        program_release();
+    }
     if (!share_memory(rows, columns)) {
         return err_raise(ERR_NO_MEMORY, "%s", "");
     }
@@ -172,12 +177,12 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
 
 err_t editor_edit(const char *file, void (*on_break)(void), bool *start) {
     *start = false;
-    console_set_raw(true);
+    console_set_full_screen(true);
     console_print("\x1b[?2004h"); // a paste shall come in brackets
     err_t error = edit(file, on_break, start);
     console_print("\x1b[?2004l");
     editor_screen_finish();
-    console_set_raw(false);
+    console_set_full_screen(false);
     if (file == NULL) {
         editor.line = 0;
     }

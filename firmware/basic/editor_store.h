@@ -2,7 +2,12 @@
 #ifndef BASIC_EDITOR_STORE_H
 #define BASIC_EDITOR_STORE_H
 
+#include <stddef.h>
+
 #include "base/base.h"
+
+// Bytes it will have, about; 0 if there is nothing.
+size_t editor_store_size(const char *file);
 
 // Fills the (empty) text. A file that is not there is a new one. Error: too long, not readable.
 err_t editor_store_load(const char *file);

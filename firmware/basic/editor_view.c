@@ -154,8 +154,8 @@ static void draw_status(size_t column) {
     editor_screen_print(cursor->modified ? "*" : " ", EDITOR_SCREEN_INVERSE);
     editor_screen_print(view.name != NULL ? view.name : "Program", EDITOR_SCREEN_INVERSE);
     unsigned width = editor_screen_columns();
-    editor_screen_fill(width > 60 ? width - 46 : width / 3, EDITOR_SCREEN_INVERSE);
-    format_text(text, sizeof text, " %s  Ln %u of %u  Col %-5u %u KB free",
+    editor_screen_fill(width > 60 ? width - 50 : width / 3, EDITOR_SCREEN_INVERSE);
+    format_text(text, sizeof text, " %s  Ln %4u of %-4u  Col %-4u %u KB free",
                 cursor->overwrite ? "OVR" : "INS", (unsigned)cursor->line + 1,
                 (unsigned)editor_text_line_ends() + 1, (unsigned)column + 1,
                 (unsigned)editor_text_room() / 1024);

@@ -103,6 +103,14 @@ err_t program_compile_stored(void) {
     return program.stale ? program_compile("", 0) : ERR_OK;
 }
 
+void program_release(void) {
+    program.argument_length = 0;
+    program.code = NULL;
+    program.code_size = 0;
+    program.stale = true;
+    errors_try(compile_nothing);
+}
+
 err_t program_store_text(const char *text, size_t length) {
     program_storage_t writer;
     program_storage_begin(&writer);

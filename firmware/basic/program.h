@@ -20,6 +20,10 @@ err_t program_set_text(const char *text, size_t length);
 err_t program_store_text(const char *text, size_t length);
 err_t program_compile_stored(void); // if there is something new
 
+// Gives up its code and all variables, for whoever needs nearly all of the arena for a while;
+// program_compile_stored() brings the code back.
+void program_release(void);
+
 // As program_set_text(), with what a file holds, which need not fit the memory.
 err_t program_load(const char *path);
 

@@ -29,7 +29,7 @@ const statements_row_t statements_table[] = {
     {"DIM", statements_dim, "DIM [type] name[(size, ...)] [AS type] [LENGTH n] [= value] [, ...]",
      "Declares variables and arrays"},
     {"DO", statements_do, "DO [WHILE|UNTIL condition] ... LOOP [WHILE|UNTIL condition]", "Repeats"},
-    {"EDIT", statements_edit, "EDIT", "The full-screen editor"},
+    {"EDIT", statements_edit, "EDIT [file$]", "Edits the program, or a file, on the whole screen"},
     {"ELSE", statements_else, NULL, NULL},
     {"ELSEIF", statements_elseif, NULL, NULL},
     {"END", statements_end, "END [NOEND]", "Ends the program; NOEND: without its SUB MM.END"},

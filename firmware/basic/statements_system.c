@@ -60,7 +60,7 @@ void statements_autosave(void) {
 
 void statements_edit(void) {
     at_prompt_only();
-    emit_action(ACTIONS_EDIT, 0);
+    compile_optional(ACTIONS_EDIT);
 }
 
 void statements_list(void) {

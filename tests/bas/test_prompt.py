@@ -211,7 +211,10 @@ def test_a_damaged_image_is_reported_and_the_older_program_is_there(tmp_path):
         timeout=TIMEOUT_S,
         check=True,
     )
-    assert b"Error : The program stored last is damaged or incomplete; this is the one before" in done.stdout
+    assert (
+        b"Error : The program stored last is damaged or incomplete; this is the one before"
+        in done.stdout
+    )
     assert b"\r\n 11\r\n" in done.stdout
 
 

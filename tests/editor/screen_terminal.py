@@ -32,8 +32,8 @@ class ScreenTerminal:
         os.close(slave)
         self.until(b"> ")
 
-    def until(self, end: bytes) -> bytes:
-        """Take output in up to `end`; what was seen."""
+    def until(self, end: bytes | tuple[bytes, ...]) -> bytes:
+        """Take output in up to `end`, or one of several; what was seen."""
         seen = b""
         while not seen.endswith(end):
             ready, _, _ = select.select([self.master], [], [], TIMEOUT_S)
@@ -42,7 +42,7 @@ class ScreenTerminal:
         self.stream.feed(seen)
         return seen
 
-    def type(self, text: str | bytes, end: bytes = b"\r\n> ") -> bytes:
+    def type(self, text: str | bytes, end: bytes | tuple[bytes, ...] = b"\r\n> ") -> bytes:
         """Type, wait for what ends the answer; the answer."""
         data = text.encode() if isinstance(text, str) else text
         while data:
@@ -53,6 +53,19 @@ class ScreenTerminal:
     def key(self, key: str | bytes) -> bytes:
         """Press a key of the editor; the drawing."""
         return self.type(key, DRAWN)
+
+    def paste(self, text: str) -> None:
+        """Paste into the editor and wait until all of it has arrived."""
+        self.type(text + "\x1bOR", b"")
+        shown = ""
+        while "Find:" not in shown:
+            self.until(DRAWN)
+            shown = self.rows()[-1]
+        self.key("\x1b")
+
+    def let_time_pass(self) -> None:
+        """Type nothing for so long that virtual time goes on, if the machine has something to do."""
+        select.select([self.master], [], [], 0.1)
 
     def enter_program(self, text: str) -> None:
         """Store a program."""
