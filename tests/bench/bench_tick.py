@@ -155,8 +155,8 @@ def statement_section(uf2: Path) -> Section:
 def goals_section(uf2: Path, missed: list[str]) -> Section:
     section = Section("A BASIC program", ["", "cycles", "goal", "original"])
     section.note = (
-        "In a FOR loop whose own turn is taken off; beside it PicoMite's MMBasic on the same emulated "
-        "core."
+        "In a FOR loop whose own turn is taken off; beside it PicoMite's MMBasic on the same "
+        "emulated core."
     )
     for goal, cycles in zip(measure.GOALS, measure.goals(uf2), strict=True):
         limit, original = whole(goal.limit), f"({whole(goal.original)})"
