@@ -236,6 +236,13 @@ void basic_cmds_break(void) {
     stepper_stop();
 }
 
+err_t basic_cmds_may_restart(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    bool active = status.moving || stepper_active() > 0;
+    return active ? err_raise(ERR_STEPPER_BUSY, "%s", "") : ERR_OK;
+}
+
 bool basic_cmds_control(char c) {
     stepper_status_t status;
     stepper_status(&status);

@@ -22,6 +22,9 @@ void basic_cmds_background(void);
 // Ctrl-C: brings motion to a controlled stop.
 void basic_cmds_break(void);
 
+// Refuses a restart while motion is active or queued.
+err_t basic_cmds_may_restart(void);
+
 // Ctrl-F is feed hold, Ctrl-R resumes. False while there is nothing they could act on, and for all other
 // characters.
 bool basic_cmds_control(char c);

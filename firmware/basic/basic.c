@@ -16,6 +16,7 @@
 #include "hal/hal.h"
 #include "help.h"
 #include "line_editor.h"
+#include "machine.h"
 #include "memory.h"
 #include "number_text.h"
 #include "program.h"
@@ -23,6 +24,7 @@
 #include "symbols.h"
 #include "transfer.h"
 #include "vm.h"
+#include "watchdog.h"
 #include "words.h"
 
 #define PRINT_SIZE 256
@@ -108,6 +110,7 @@ static void show_waiting_notices(void) {
 static void background(void) {
     show_waiting_notices();
     files_background();
+    watchdog_look();
     if (config->background != NULL) {
         config->background();
     }
@@ -165,6 +168,7 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
     console_set_running(true);
     err_t error = vm_run(code, &broken);
     events_clear();
+    watchdog_set(0);
     console_set_running(false);
     memory.scratch = scratch;
     if (broken || console_break_pending()) {
@@ -319,6 +323,7 @@ void basic_start(const basic_config_t *new_config) {
     args_start(config);
     channels_start(config);
     help_start(config);
+    machine_start(config->may_restart);
     words_start(config);
     memory_start(config->arena, config->arena_size);
     program_use_text("", 0);

@@ -158,6 +158,8 @@ typedef struct {
     void (*on_clear)(void);
     // An error has ended a program (not a line at the prompt), before it is printed. NULL: none.
     void (*on_error)(void);
+    // Asked before CPU RESTART and the boot loader: an error that is raised refuses it. NULL: always.
+    err_t (*may_restart)(void);
     // Called as soon as a control character other than Ctrl-C comes from the terminal: in the middle of a
     // statement, of output or of a line being typed. True: it was meant for the product and is no input.
     // May call basic_notice(); must not raise errors. NULL: all are input.

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "hal/hal.h"
+#include "watchdog.h"
 
 #define INPUT_SIZE 1024u // power of two; a paste waits here while a statement runs
 #define OUTPUT_SIZE 256u
@@ -320,7 +321,7 @@ void console_wait(uint64_t until_us) {
         console_flush();
     }
     if (!console.break_pending && console.seen == seen) {
-        hal_idle(until_us);
+        hal_idle(watchdog_next_us(until_us));
         console_poll();
     }
 }

@@ -75,6 +75,8 @@ const functions_row_t functions_table[] = {
     {"MM.ERRMSG$", "", 0, 0, functions_mm_errmsg, "MM.ERRMSG$: text of the last error"},
     {"MM.ERRNO", "", 0, 0, functions_mm_errno, "MM.ERRNO: 0 if there was no error"},
     {"MM.VER", "", 0, 0, functions_mm_ver, "MM.VER: version of the firmware as a number"},
+    {"MM.WATCHDOG", "", 0, 0, functions_mm_watchdog,
+     "MM.WATCHDOG: 1 if WATCHDOG restarted the board"},
     {"OCT$", "i", 1, 2, functions_oct, "OCT$(number [, digits])"},
     {"PI", "", 0, 0, functions_pi, "PI"},
     {"RAD", "f", 1, 1, functions_rad, "RAD(degrees): radians"},

@@ -72,6 +72,12 @@ FUNCTION(mm_errno) {
     value_set_integer(result, vm.error_text[0] != '\0' ? ERRNO_GENERAL : 0);
 }
 
+FUNCTION(mm_watchdog) {
+    (void)arguments;
+    (void)count;
+    value_set_integer(result, hal_watchdog_restarted());
+}
+
 FUNCTION(bound) {
     if (arguments[0].type != VALUE_ARRAY) {
         errors_fail(ERR_ARRAY_DIMENSIONS);

@@ -23,7 +23,7 @@ bool statements_compile_other(void);
 void statements_abandon_routine(void);
 
 // statements_flow.c, statements_routine.c, statements_data.c, statements_io.c,
-// statements_channels.c, statements_files.c, statements_system.c, statements_events.c
+// statements_channels.c, statements_files.c, statements_system.c, statements_events.c, statements_machine.c
 #define STATEMENTS_DECLARE(name) void statements_##name(void);
 STATEMENTS_DECLARE(if)
 STATEMENTS_DECLARE(elseif)
@@ -49,6 +49,10 @@ STATEMENTS_DECLARE(end)
 STATEMENTS_DECLARE(end_routine)
 STATEMENTS_DECLARE(on_error)
 STATEMENTS_DECLARE(on_key)
+STATEMENTS_DECLARE(cpu)
+STATEMENTS_DECLARE(trace)
+STATEMENTS_DECLARE(update)
+STATEMENTS_DECLARE(watchdog)
 STATEMENTS_DECLARE(settick)
 STATEMENTS_DECLARE(sub)
 STATEMENTS_DECLARE(function)

@@ -15,6 +15,7 @@
 #include "functions.h"
 #include "hal/hal.h"
 #include "indirect.h"
+#include "trace.h"
 #include "variables.h"
 
 // Statements between two looks for input of which the board has said nothing (what was left in its
@@ -32,6 +33,7 @@ void vm_reset(void) {
     memset(&vm, 0, sizeof vm);
     vm.on_clear = on_clear;
     events_clear();
+    trace_clear();
     on_clear();
     vm.default_type = VALUE_FLOAT;
 }
@@ -54,6 +56,7 @@ static void attend(void) {
 static void begin_statement(const uint8_t *statement) {
     vm.statement = statement;
     memory.scratch = vm.scratch_base;
+    trace_statement(code_u16(statement + 1));
     bool input_came = hal_statement();
     if (input_came || --poll_countdown == 0) {
         attend();

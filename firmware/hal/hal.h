@@ -37,6 +37,16 @@ bool hal_end_of_input(void);
 // Leaves the program. A board restarts instead.
 _Noreturn void hal_exit(int code);
 
+// Starts the firmware afresh, as after power-up: all pins go back to inputs. `watchdog`: because the
+// program's watchdog ran out; the next start knows. (Host: leaves the program, code 4 or 5.)
+_Noreturn void hal_restart(bool watchdog);
+
+// Starts the boot loader, which waits for a UF2 on USB. (Host: leaves the program, code 4.)
+_Noreturn void hal_bootloader(void);
+
+// True if this start followed a watchdog: hal_restart(true), or the board's own when the firmware hung.
+bool hal_watchdog_restarted(void);
+
 // "Raspberry Pi Pico", "Raspberry Pi Pico 2", "host".
 const char *hal_board_name(void);
 

@@ -42,7 +42,8 @@ static const char help[] =
     "\n"
     "Keys on a terminal: Ctrl-C goes to the firmware, Ctrl-D ends the input, Ctrl-\\ quits at "
     "once.\n"
-    "Exit codes: 0, 1 BASIC error, 2 wrong usage or unusable file, 128 + n ended by signal n.\n";
+    "Exit codes: 0, 1 BASIC error, 2 wrong usage or unusable file, 4 CPU RESTART, 5 WATCHDOG,\n"
+    "128 + n ended by signal n.\n";
 
 enum {
     OPTION_TRACE = 256,

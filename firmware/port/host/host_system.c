@@ -19,6 +19,9 @@
 // Of the size that a Raspberry Pi Pico has to offer: what does not fit there shall not fit here.
 #define MEMORY_SIZE (112u * 1024u)
 
+#define EXIT_RESTART 4
+#define EXIT_WATCHDOG 5
+
 void hal_init(int argc, char **argv) {
     const host_options_t *options = host_options_parse(argc, argv);
     if (options->flash_path != NULL) {
@@ -44,6 +47,18 @@ void hal_init(int argc, char **argv) {
 
 void hal_exit(int code) {
     exit(code);
+}
+
+void hal_restart(bool watchdog) {
+    exit(watchdog ? EXIT_WATCHDOG : EXIT_RESTART);
+}
+
+void hal_bootloader(void) {
+    exit(EXIT_RESTART);
+}
+
+bool hal_watchdog_restarted(void) {
+    return false;
 }
 
 void *hal_memory(size_t *size) {

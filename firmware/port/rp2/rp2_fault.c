@@ -12,8 +12,11 @@
 
 #define REASON_FAULT 0xFA017000u
 #define REASON_PANIC 0xFA017001u
+#define REASON_ASKED 0xFA017002u
+#define REASON_WATCHDOG 0xFA017003u
 
 static char report[80];
+static bool by_watchdog;
 
 void rp2_fault_init(void) {
     uint32_t reason = watchdog_hw->scratch[0];
@@ -24,7 +27,11 @@ void rp2_fault_init(void) {
                     lr);
     } else if (reason == REASON_PANIC) {
         format_text(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
-    } else if (watchdog_enable_caused_reboot()) {
+    } else if (reason == REASON_WATCHDOG) {
+        by_watchdog = true;
+        format_text(report, sizeof report, "Restarted by WATCHDOG\r\n");
+    } else if (reason != REASON_ASKED && watchdog_enable_caused_reboot()) {
+        by_watchdog = true;
         format_text(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
                     RP2_FAULT_WATCHDOG_MS / 1000);
     }
@@ -34,6 +41,14 @@ void rp2_fault_init(void) {
 
 const char *rp2_fault_report(void) {
     return report[0] != '\0' ? report : NULL;
+}
+
+bool hal_watchdog_restarted(void) {
+    return by_watchdog;
+}
+
+_Noreturn void hal_restart(bool watchdog) {
+    rp2_fault_restart(watchdog ? REASON_WATCHDOG : REASON_ASKED, 0, 0);
 }
 
 // In RAM and by registers alone: the flash may be what failed.

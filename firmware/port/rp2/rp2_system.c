@@ -3,6 +3,7 @@
 
 #include "hardware/watchdog.h"
 #include "pico/binary_info.h"
+#include "pico/bootrom.h"
 
 #include "rp2_port.h"
 #include "version.h"
@@ -33,6 +34,13 @@ bool hal_end_of_input(void) {
 _Noreturn void hal_exit(int code) {
     (void)code;
     watchdog_reboot(0, 0, 0);
+    for (;;) {
+        __wfi();
+    }
+}
+
+_Noreturn void hal_bootloader(void) {
+    rom_reset_usb_boot(0, 0);
     for (;;) {
         __wfi();
     }

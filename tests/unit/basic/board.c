@@ -1,6 +1,7 @@
 // A board in memory for the language's unit tests.
 #include "board.h"
 
+#include <setjmp.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -49,6 +50,10 @@ static void count_clear(void) {
     board.clears++;
 }
 
+static err_t may_restart(void) {
+    return board.busy ? err_raise(ERR_ARGUMENT, "%s", "Busy") : ERR_OK;
+}
+
 static void count_error(void) {
     board.errors++;
 }
@@ -85,6 +90,7 @@ void board_start(const basic_command_t *commands, size_t command_count,
         .on_break = count_break,
         .on_clear = count_clear,
         .on_error = count_error,
+        .may_restart = may_restart,
         .on_control = take_control,
     };
     basic_start(&state.config);
@@ -189,6 +195,28 @@ bool hal_statement(void) {
     bool came = state.typed != state.told;
     state.told = state.typed;
     return came;
+}
+
+static jmp_buf restarted;
+
+int board_restarts(void (*run)(void)) {
+    volatile int how = setjmp(restarted);
+    if (how == 0) {
+        run();
+    }
+    return how;
+}
+
+void hal_restart(bool watchdog) {
+    longjmp(restarted, 1 + watchdog);
+}
+
+void hal_bootloader(void) {
+    longjmp(restarted, 3);
+}
+
+bool hal_watchdog_restarted(void) {
+    return board.watchdog_restarted;
 }
 
 bool hal_tick_running(void) {

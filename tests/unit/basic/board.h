@@ -40,6 +40,8 @@ typedef struct {
     void (*on_background)(void); // what it does besides; NULL: nothing
     unsigned breaks;             // calls of on_break
     unsigned clears;             // calls of on_clear
+    bool busy;                   // nothing may restart the board
+    bool watchdog_restarted;     // it was started by its watchdog
     unsigned errors;             // calls of on_error
     bool controllable;           // there is something that Ctrl-F acts on
     unsigned controls;           // times Ctrl-F did
@@ -53,5 +55,8 @@ typedef struct {
 } board_t;
 
 extern board_t board;
+
+// True if `run` restarted the board (2: by the watchdog, 3: into the boot loader).
+int board_restarts(void (*run)(void));
 
 #endif
