@@ -247,6 +247,14 @@ static err_t run_program(void) {
     }
 }
 
+// With a new program the channels of the old one are gone as its variables are.
+static void end_if_new(err_t error) {
+    report(error);
+    if (error == ERR_OK) {
+        channels_end_program();
+    }
+}
+
 // What the line left to be done once it does not run any more.
 static void serve(vm_request_t request) {
     switch (request) {
@@ -263,12 +271,10 @@ static void serve(vm_request_t request) {
         load_requested();
         break;
     case VM_REQUEST_NEW:
-        channels_end_program();
-        report(program_set_text("", 0));
+        end_if_new(program_set_text("", 0));
         break;
     case VM_REQUEST_RECEIVE:
-        channels_end_program();
-        report(transfer_receive_program());
+        end_if_new(transfer_receive_program());
         break;
     case VM_REQUEST_AUTOSAVE: {
         bool start = false;

@@ -71,6 +71,8 @@ const functions_row_t functions_table[] = {
     {"MAX", "f", 1, 10, functions_max, "MAX(number, number ...)"},
     {"MID$", "si", 2, 3, functions_mid, "MID$(text$, start [, count])"},
     {"MIN", "f", 1, 10, functions_min, "MIN(number, number ...)"},
+    {"MM.CMDLINE$", "", 0, 0, functions_mm_cmdline,
+     "MM.CMDLINE$: what RUN was given for the program"},
     {"MM.DEVICE$", "", 0, 0, functions_mm_device, "MM.DEVICE$: name of the board"},
     {"MM.ERRMSG$", "", 0, 0, functions_mm_errmsg, "MM.ERRMSG$: text of the last error"},
     {"MM.ERRNO", "", 0, 0, functions_mm_errno, "MM.ERRNO: 0 if there was no error"},

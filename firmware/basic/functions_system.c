@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "functions.h"
 #include "hal/hal.h"
+#include "program.h"
 #include "variables.h"
 #include "vm.h"
 
@@ -64,6 +65,14 @@ FUNCTION(mm_errmsg) {
     (void)arguments;
     (void)count;
     value_set_text(result, vm.error_text, strlen(vm.error_text));
+}
+
+FUNCTION(mm_cmdline) {
+    (void)arguments;
+    (void)count;
+    size_t length;
+    const char *argument = program_argument(&length);
+    value_set_text(result, argument, length);
 }
 
 FUNCTION(mm_errno) {

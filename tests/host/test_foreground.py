@@ -29,6 +29,8 @@ SETUP = [
     "STEPPER SCURVE 1",
     "STEPPER JERK 50000",
     "STEPPER POSITION HOME",
+    'OPEN "text" FOR OUTPUT AS #1: FOR i=1 TO 500: PRINT #1, "line"; i: NEXT: CLOSE #1',
+    'OPEN "log" FOR OUTPUT AS #2: OPEN "text" FOR INPUT AS #3: MKDIR "folder"',
 ]
 JOB = [
     "G1 X40 F6000",
@@ -62,11 +64,27 @@ ERRORS = [
     "z" * 3000,
     "".join(chr(c) for c in range(33, 127)),
 ]
+FILES = [
+    'OPEN "more" FOR OUTPUT AS #4',
+    'FOR i=1 TO 500: ON ERROR SKIP: PRINT #2, "position"; PEEK(STEPPER X): NEXT',
+    "SEEK #3, 1: DO WHILE NOT EOF(#3): LINE INPUT #3, a$: LOOP",
+    "FILES",
+    'COPY "text" TO "copy"',
+    'KILL "text"',
+    'RENAME "text" AS "copy"',
+    'MKDIR "another"',
+    'a$=DIR$("*"): a$=DIR$()',
+    'CHDIR "folder": CHDIR ".."',
+    'XMODEM RECEIVE "copy"',
+    "CLOSE #2",
+    'LIST ALL "text"',
+]
 FOREGROUNDS = {
     "loop": [LOOP],
     "string churn": [CHURN],
     "errors": ERRORS * 40,
     "questions": ["STEPPER STATUS", "PRINT PEEK(STEPPER X)", "HELP STEPPER"] * 60,
+    "files": FILES * 10,
     "long text": [LONG_TEXT],
     "all": [*ERRORS * 5, LONG_TEXT.replace("20000", "2000"), *ERRORS, CHURN],
 }
