@@ -49,6 +49,7 @@ int main(int argc, char **argv) {
     if (program != NULL) {
         err = basic_run_program(program, length);
     } else {
+        basic_boot();
         while (basic_prompt()) {
         }
     }

@@ -17,9 +17,6 @@
 #include "vm.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
-#define DISPLAY_MAX 255
-#define DISPLAY_ROWS_MIN 2
-#define DISPLAY_COLUMNS_MIN 20
 
 void actions_stop_with(vm_request_t request) {
     vm.stop = true;
@@ -93,22 +90,6 @@ ACTION_BODY(option) {
         vm.base = (uint8_t)value;
         break;
     }
-}
-
-static unsigned display_size(const char *name, const value_t *value, unsigned least) {
-    int64_t size = value_to_integer(value);
-    if (size < least || size > DISPLAY_MAX) {
-        errors_fail_with(ERR_ARGUMENT, "%s: %ld is invalid (valid is %u to %u)", name, (long)size,
-                         least, (unsigned)DISPLAY_MAX);
-    }
-    return (unsigned)size;
-}
-
-ACTION_BODY(option_display) {
-    unsigned rows = display_size("lines", &arguments[0], DISPLAY_ROWS_MIN);
-    unsigned columns =
-        count < 2 ? console_columns() : display_size("columns", &arguments[1], DISPLAY_COLUMNS_MIN);
-    console_set_size(rows, columns);
 }
 
 ACTION_BODY(on_error) {

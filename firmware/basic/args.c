@@ -245,11 +245,10 @@ static const char *match_words(const char *name, const char *text) {
 }
 
 // All rows of the chain start with the word at hand: only what is behind it has to be compared.
-void args_compile_command(int row) {
-    const char *first_name = config->commands[row].name;
-    size_t first_length = strcspn(first_name, " ");
+// WORDS_NONE: none fits; otherwise `behind` is where its words end.
+static int find_command(int row, const char **behind) {
+    size_t first_length = strcspn(config->commands[row].name, " ");
     const char *start = lexer_now()->behind;
-    const char *behind = NULL;
     size_t longest = 0;
     int found = WORDS_NONE;
     for (; row != WORDS_NONE; row = words_next(WORDS_COMMAND, row)) {
@@ -258,11 +257,26 @@ void args_compile_command(int row) {
         if (end != NULL && (found == WORDS_NONE || strlen(rest) > longest)) {
             longest = strlen(rest);
             found = row;
-            behind = end;
+            *behind = end;
         }
     }
+    return found;
+}
+
+bool args_fits_command(int row) {
+    const char *start = lexer_now()->text;
+    const char *behind;
+    bool found = find_command(row, &behind) != WORDS_NONE;
+    lexer_go(start);
+    return found;
+}
+
+void args_compile_command(int row) {
+    const char *first_name = config->commands[row].name;
+    const char *behind;
+    int found = find_command(row, &behind);
     if (found == WORDS_NONE) {
-        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)first_length, first_name);
+        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)strcspn(first_name, " "), first_name);
     }
     found = args_select_row(found, behind);
     const basic_command_t *command = &config->commands[found];

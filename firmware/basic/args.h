@@ -12,6 +12,9 @@ void args_start(const basic_config_t *config);
 
 // ---- Compiling -----------------------------------------------------------------------------------
 
+// The word at hand is the first of row `row`'s name; true if further words make one of the rows' names whole.
+bool args_fits_command(int row);
+
 // The word at hand is the first of row `row`'s name: finds the longest name that fits and compiles the
 // arguments. Errors: unknown subcommand, missing argument, too many.
 void args_compile_command(int row);

@@ -6,6 +6,7 @@
 
 #include "args.h"
 #include "autosave.h"
+#include "boot.h"
 #include "channels.h"
 #include "compiler.h"
 #include "console.h"
@@ -19,6 +20,7 @@
 #include "machine.h"
 #include "memory.h"
 #include "number_text.h"
+#include "options.h"
 #include "program.h"
 #include "requests.h"
 #include "symbols.h"
@@ -203,14 +205,21 @@ static void compile_line(void) {
     line.code = compiler_line(line.text, line.length);
 }
 
-// The program has come to its END: its SUB MM.END has the last word.
-static err_t run_end_routine(void (*on_error)(void)) {
-    static const char name[] = "MM.END";
-    line.text = name;
-    line.length = sizeof name - 1;
-    if (symbols_find(SYMBOLS_ROUTINE, 0, line.text, line.length) == NULL) {
+static void (*on_program_error(void))(void) {
+    return config->on_error != NULL ? config->on_error : nothing;
+}
+
+static bool has_routine(const char *name) {
+    return symbols_find(SYMBOLS_ROUTINE, 0, name, strlen(name)) != NULL;
+}
+
+// Runs a SUB of the program, if it has one of this name.
+static err_t run_routine(const char *name, void (*on_error)(void)) {
+    if (!has_routine(name)) {
         return ERR_OK;
     }
+    line.text = name;
+    line.length = strlen(name);
     uint8_t *scratch = memory.scratch;
     err_t error = ERR_NO_MEMORY;
     if (errors_try(compile_line) == ERRORS_NONE) {
@@ -223,7 +232,7 @@ static err_t run_end_routine(void (*on_error)(void)) {
 }
 
 static err_t run_program(void) {
-    void (*on_error)(void) = config->on_error != NULL ? config->on_error : nothing;
+    void (*on_error)(void) = on_program_error();
     for (;;) {                  // a program may say RUN
         channels_end_program(); // those the prompt has opened
         size_t length;
@@ -234,7 +243,7 @@ static err_t run_program(void) {
         }
         error = run(program_code(), on_error);
         if (error == ERR_OK && vm.at_end) {
-            error = run_end_routine(on_error);
+            error = run_routine("MM.END", on_error); // it has the last word
         }
         channels_end_program();
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
@@ -337,7 +346,29 @@ void basic_start(const basic_config_t *new_config) {
         console_print(config->banner);
     }
     report(files_start());
+    options_start(config);
     report(program_start());
+    console_flush();
+}
+
+void basic_boot(void) {
+    bool autorun = options_get(OPTIONS_AUTORUN) != 0 && program_code() != NULL;
+    if (!autorun && !has_routine("MM.STARTUP")) {
+        return;
+    }
+    if (!boot_is_wanted()) {
+        console_print("MM.STARTUP and AUTORUN are skipped\r\n");
+        return;
+    }
+    vm.request = VM_REQUEST_NONE;
+    requests_clear();
+    err_t error = run_routine("MM.STARTUP", on_program_error());
+    if (error == ERR_OK && vm.request == VM_REQUEST_NONE && autorun) {
+        run_program();
+    } else {
+        serve(vm.request);
+    }
+    vm.request = VM_REQUEST_NONE;
     console_flush();
 }
 

@@ -173,6 +173,10 @@ typedef struct {
 // Takes the configuration (which must stay valid), clears everything and prints the banner.
 void basic_start(const basic_config_t *config);
 
+// Carries out what a board does at power-up before the prompt: MM.STARTUP of the stored program, and the program
+// itself if OPTION AUTORUN is on. Not after a start because of a fault, or if Ctrl-C comes first.
+void basic_boot(void);
+
 // Runs `source`, whose lines end with \n and which has to stay valid, to its end. Prints the error if there is one.
 err_t basic_run_program(const char *source, size_t length);
 
@@ -200,6 +204,13 @@ void basic_set_pin_numbers(basic_pin_numbers_t numbers);
 
 // Writes `value` as PRINT does, without the leading blank. Returns `buffer`.
 char *basic_format_number(char *buffer, size_t size, double value);
+
+// A setting of the product that outlives power-off: what was set, or the fallback. The name is that of the
+// command that sets it, without OPTION. Quick enough to be asked each time.
+int64_t basic_option(const char *name, int64_t fallback);
+
+// Errors: motion is under way, no room; the setting is as it was.
+err_t basic_set_option(const char *name, int64_t value);
 
 // True if the user pressed Ctrl-C and the statement should end; a handler that waits must ask.
 bool basic_break_pending(void);

@@ -140,14 +140,14 @@ static void compile_words(void) {
     }
     if (token->kind == LEXER_NAME && token->suffix == 0) {
         int row = words_find(WORDS_STATEMENT, token->text, token->length);
+        int command = words_find(WORDS_COMMAND, token->text, token->length);
+        if (command != WORDS_NONE && (row == WORDS_NONE || args_fits_command(command))) {
+            args_compile_command(command);
+            return;
+        }
         if (row != WORDS_NONE) {
             lexer_next();
             statements_table[row].compile();
-            return;
-        }
-        row = words_find(WORDS_COMMAND, token->text, token->length);
-        if (row != WORDS_NONE) {
-            args_compile_command(row);
             return;
         }
     }

@@ -15,6 +15,7 @@
 #include "hal/hal.h"
 #include "keys.h"
 #include "memory.h"
+#include "options.h"
 #include "program.h"
 
 #define RESERVE 2048u             // stays free in the arena: what keeping the text needs
@@ -158,7 +159,7 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
     if (!share_memory(rows, columns)) {
         return err_raise(ERR_NO_MEMORY, "%s", "");
     }
-    editor_cursor_start(2);
+    editor_cursor_start((unsigned)options_get(OPTIONS_TAB));
     err_t error = editor_store_load(file);
     if (error != ERR_OK) {
         return error;

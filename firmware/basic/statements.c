@@ -79,8 +79,9 @@ const statements_row_t statements_table[] = {
      "Opens a file as a channel, 1 to 10"},
     {"OPTION", statements_option,
      "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1 / ESCAPE / ANGLE DEGREES|RADIANS / "
-     "CONTINUATION LINES ON|OFF / DISPLAY lines [, columns]",
-     "Sets how a program is read and computes, and the size of the terminal"},
+     "CONTINUATION LINES ON|OFF / AUTORUN ON|OFF / BREAK key / COLOURCODE ON|OFF / "
+     "DISPLAY lines [, columns] / TAB 2|3|4|8 / LIST / RESET",
+     "Sets how a program is read and computes; from AUTORUN on, what is kept over power-off"},
     {"PAUSE", statements_pause, "PAUSE milliseconds", "Waits"},
     {"PRINT", statements_print, "PRINT [#n,] value [;|, ...]",
      "Writes to the terminal or a channel; ? for short"},

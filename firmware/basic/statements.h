@@ -19,6 +19,9 @@ extern const size_t statements_count;
 // False: it is none of these.
 bool statements_compile_other(void);
 
+// The options that are kept over power-off, for OPTION. False: it is none of them.
+bool statements_option_kept(void);
+
 // Closes a SUB or FUNCTION that has no end; a call of it raises the error.
 void statements_abandon_routine(void);
 

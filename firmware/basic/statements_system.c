@@ -157,7 +157,7 @@ static void compile_angle(void) {
 }
 
 void statements_option(void) {
-    if (compile_text_option()) {
+    if (compile_text_option() || statements_option_kept()) {
         return;
     }
     if (lexer_take_word("EXPLICIT")) {
@@ -170,13 +170,6 @@ void statements_option(void) {
         emit_integer(ACTIONS_OPTION_BASE);
         expressions_compile();
         emit_action(ACTIONS_OPTION, 2);
-    } else if (lexer_take_word("DISPLAY")) {
-        expressions_compile();
-        bool columns = lexer_take(',');
-        if (columns) {
-            expressions_compile();
-        }
-        emit_action(ACTIONS_OPTION_DISPLAY, 1 + columns);
     } else {
         errors_fail(ERR_SYNTAX);
     }

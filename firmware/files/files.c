@@ -7,7 +7,7 @@
 #include "files_volume.h"
 #include "hal/hal.h"
 
-#define REPLACEMENT "/~new" // a new content until it is complete
+#define REPLACEMENT "/.new" // a new content until it is complete
 
 typedef struct {
     lfs_file_t file;

@@ -89,7 +89,7 @@ err_t files_remove_folder(const char *path); // error: not empty
 err_t files_change_folder(const char *path);
 const char *files_folder(void);
 
-// The entries of a folder, in no order. One list at a time: a further start, or any change of a name, ends it.
+// The entries of a folder, in no order, but for those whose names start with a dot: they are the firmware's own. One list at a time: a further start, or any change of a name, ends it.
 err_t files_list_start(const char *folder);
 bool files_list_next(files_entry_t *entry);
 

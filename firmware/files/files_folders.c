@@ -106,7 +106,7 @@ bool files_list_next(files_entry_t *entry) {
             end_list();
             return false;
         }
-    } while (info.name[0] == '.' && (info.name[1] == '\0' || info.name[1] == '.'));
+    } while (info.name[0] == '.'); // the folder, the one above, and what is not the user's
     strcpy(entry->name, info.name);
     entry->is_folder = info.type == LFS_TYPE_DIR;
     entry->size = entry->is_folder ? 0 : info.size;

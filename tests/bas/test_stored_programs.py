@@ -1,4 +1,4 @@
-"""Programs in the flash and in files: NEW, SAVE, LOAD, RUN file, and what is left when something fails."""
+"""Programs in the flash and in files: NEW, SAVE, LOAD, RUN file, and what a failure leaves."""
 
 from __future__ import annotations
 

@@ -67,6 +67,10 @@ void *hal_memory(size_t *size) {
     return memory;
 }
 
+bool hal_restarted_by_fault(void) {
+    return false;
+}
+
 const char *hal_board_name(void) {
     return "host";
 }

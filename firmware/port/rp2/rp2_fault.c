@@ -39,6 +39,10 @@ void rp2_fault_init(void) {
     watchdog_enable(RP2_FAULT_WATCHDOG_MS, true);
 }
 
+bool hal_restarted_by_fault(void) {
+    return report[0] != '\0';
+}
+
 const char *rp2_fault_report(void) {
     return report[0] != '\0' ? report : NULL;
 }

@@ -227,6 +227,10 @@ const char *hal_firmware_version(void) {
     return "1.2.3-test";
 }
 
+bool hal_restarted_by_fault(void) {
+    return board.crashed;
+}
+
 const char *hal_board_name(void) {
     return "test board";
 }

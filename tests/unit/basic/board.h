@@ -34,6 +34,7 @@ const char *board_session(const char *text);
 typedef struct {
     uint64_t time_us;
     uint64_t blocked_until_us;   // the terminal takes no output before
+    bool crashed;                // the start before this one
     bool ticking;                // motion runs: the flash is busy
     unsigned writes;             // calls of hal_console_write() that took something
     unsigned backgrounds;        // calls of the background hook
