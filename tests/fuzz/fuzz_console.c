@@ -11,16 +11,20 @@
 #include "fuzz_corpus.h"
 #include "fuzz_machine.h"
 #include "fuzz_main_entry.h"
+#include "fuzz_program.h"
 #include "fuzz_random.h"
 #include "fuzz_session.h"
+#include "basic/memory.h"
 #include "hal/hal.h"
 #include "host_console.h"
 #include "stepper/stepper.h"
 
 #define INPUTS 120
+#define PROGRAM_INPUTS 60
 #define OUTPUT_SIZE 65536
 #define QUIET_POLLS 10       // looks for input without output that make a prompt a prompt
 #define PATIENCE_US 5000000u // virtual time that an input may take before it gets a Ctrl-C
+#define PROGRAM_PATIENCE_US 1000000u
 #define PATIENCE_POLLS 5000u // the same in looks, for waits in which time stands still
 #define SETTLE_US 20000000u  // virtual time for motion to end by itself
 
@@ -32,12 +36,16 @@ static struct {
     size_t sent;
     unsigned inputs;
     unsigned setup_lines;
-    bool single; // the input is one command: an error means that nothing has happened
-    bool canary; // the input is a question whose answer is known
+    bool single;     // the input is one command: an error means that nothing has happened
+    bool canary;     // the input is a question whose answer is known
+    bool programs;   // the session is about programs more than about single lines
+    bool emptied;    // the input ends with NEW: everything must be given back
+    size_t new_free; // bytes free after the first NEW; 0: there was none yet
     fuzz_machine_t before;
     uint64_t since_us;        // input sent, or motion left alone, at this time
     unsigned polls;           // looks for input since
     unsigned quiet;           // looks without output since
+    unsigned exits;           // keys sent after a Ctrl-C that did not help
     uint64_t resume_us;       // no input before this time
     char output[OUTPUT_SIZE]; // since the input began; the first part if there is more
     size_t output_length;
@@ -99,6 +107,19 @@ static void show_output(void) {
     }
 }
 
+// What a program used is free again after NEW. (While motors turn NEW is refused.)
+static void check_memory(void) {
+    if (find_error() != NULL) {
+        return;
+    }
+    size_t now = memory_free();
+    if (peer.new_free == 0) {
+        peer.new_free = now;
+    }
+    FUZZ_SESSION_CHECK(now == peer.new_free, "%zu bytes are free after NEW, once there were %zu",
+                       now, peer.new_free);
+}
+
 static void check_input(void) {
     show_output();
     if (peer.input.length == 0) {
@@ -121,6 +142,9 @@ static void check_input(void) {
         } else {
             fuzz_session->moves += find(peer.input.bytes, peer.input.length, "STEPPER GC") != NULL;
         }
+    }
+    if (peer.emptied) {
+        check_memory();
     }
     if (may_set_position()) {
         fuzz_machine_rebase();
@@ -168,6 +192,39 @@ static void make_wild_input(fuzz_text_t *text) {
     fuzz_text_add(text, "\r");
 }
 
+// A program, what is typed while it may still run, a line of its kind, the editor, a transfer.
+static void make_program_input(fuzz_text_t *text) {
+    switch (fuzz_random_below(10)) {
+    case 0:
+        for (unsigned lines = 1 + fuzz_random_below(4); lines > 0; lines--) {
+            fuzz_program_line(text);
+            fuzz_text_add(text, "\r");
+        }
+        break;
+    case 1:
+        fuzz_text_add(text, "EDIT\r");
+        fuzz_console_keys(text);
+        fuzz_text_add(text, "%s", fuzz_random_percent(50) ? "\x1bOP" : "\x1b[11~");
+        break;
+    case 2:
+        fuzz_text_add(text, "XMODEM %s\r", fuzz_random_percent(50) ? "RECEIVE \"x\"" : "SEND");
+        fuzz_text_noise(text, fuzz_random_below(400));
+        fuzz_text_add(text, "\x18\x18\x18\r");
+        break;
+    case 3:
+        peer.emptied = true;
+        fuzz_text_add(text, "\x03NEW\r");
+        break;
+    default:
+        fuzz_program(text);
+        if (fuzz_random_percent(30)) {
+            fuzz_console_keys(text);
+            fuzz_text_add(text, "\r");
+        }
+        break;
+    }
+}
+
 // Neither colons, which separate statements, nor keys that end or edit a line.
 static bool is_one_statement(const fuzz_text_t *text) {
     for (size_t i = 0; i < text->length; i++) {
@@ -180,7 +237,7 @@ static bool is_one_statement(const fuzz_text_t *text) {
 
 static void make_input(void) {
     fuzz_text_clear(&peer.input);
-    peer.single = false;
+    peer.single = peer.emptied = false;
     if (!stepper_axis_configured(AXIS_X) && fuzz_random_percent(30)) {
         peer.setup_lines = 0; // closed meanwhile: without this most of the session would be refused
     }
@@ -190,6 +247,8 @@ static void make_input(void) {
         fuzz_text_add(&peer.input, "\x03PRINT 6*7\r");
     } else if (fuzz_console_setup_line(&peer.input, peer.setup_lines)) {
         peer.setup_lines++;
+    } else if (peer.programs && fuzz_random_percent(80)) {
+        make_program_input(&peer.input);
     } else if (fuzz_random_percent(45)) {
         fuzz_console_command(&peer.input);
         peer.single = is_one_statement(&peer.input);
@@ -219,12 +278,13 @@ static void start_waiting(step_t step) {
 }
 
 static bool is_out_of_patience(void) {
-    return hal_time_us() - peer.since_us > PATIENCE_US || peer.polls > PATIENCE_POLLS;
+    uint64_t patience_us = peer.programs ? PROGRAM_PATIENCE_US : PATIENCE_US;
+    return hal_time_us() - peer.since_us > patience_us || peer.polls > PATIENCE_POLLS;
 }
 
 static bool is_at_prompt(void) {
     return peer.output_length > 0 && peer.quiet > QUIET_POLLS &&
-           memcmp(peer.tail, "\r\n> ", 4) == 0;
+           (memcmp(peer.tail, "\r\n> ", 4) == 0 || memcmp(peer.tail + 1, "\r> ", 3) == 0);
 }
 
 static void drain(void) {
@@ -247,7 +307,7 @@ static void drain(void) {
 
 static void go_on(void) {
     check_input();
-    if (peer.inputs == INPUTS) {
+    if (peer.inputs == (peer.programs ? PROGRAM_INPUTS : INPUTS)) {
         stepper_hold(false); // or it would never come to its end
         start_waiting(STEP_DRAIN);
         return;
@@ -273,6 +333,22 @@ static size_t hand_over(uint8_t *bytes, size_t size) {
     return count;
 }
 
+// A key that comes just when the firmware's waiting ends is taken for the end of noise: at random.
+static bool is_time_for_exit(void) {
+    return is_out_of_patience() && fuzz_random_percent(30);
+}
+
+// The next key to leave by what one Ctrl-C does not end: the editor (Esc does, when a question is
+// answered), a transfer in the middle of a block; '\0': there is none.
+static char next_exit(void) {
+    bool edits = find(peer.input.bytes, peer.input.length, "EDIT") != NULL;
+    bool transfers = find(peer.input.bytes, peer.input.length, "XMODEM") != NULL;
+    const char *keys = edits       ? "\x1by\x1by"
+                       : transfers ? "\x03\x03\x03\x03\x03\x03\x03\x03\x03"
+                                   : "";
+    return peer.exits < strlen(keys) ? keys[peer.exits++] : '\0';
+}
+
 static size_t type(uint8_t *bytes, size_t size) {
     peer.polls++;
     peer.quiet++;
@@ -287,6 +363,7 @@ static size_t type(uint8_t *bytes, size_t size) {
             go_on();
         } else if (is_out_of_patience()) {
             start_waiting(STEP_BREAK);
+            peer.exits = 0;
             bytes[0] = 3;
             return 1;
         }
@@ -294,8 +371,16 @@ static size_t type(uint8_t *bytes, size_t size) {
     case STEP_BREAK:
         if (is_at_prompt()) {
             go_on();
+        } else if (is_time_for_exit()) {
+            bytes[0] = (uint8_t)next_exit();
+            if (bytes[0] == '\0') {
+                show_output();
+                fuzz_session_fail("no prompt after Ctrl-C");
+            }
+            peer.since_us = hal_time_us();
+            peer.polls = 0;
+            return 1;
         }
-        FUZZ_SESSION_CHECK(!is_out_of_patience(), "no prompt after Ctrl-C");
         return 0;
     case STEP_DRAIN:
     case STEP_DRAIN_STOP:
@@ -328,11 +413,12 @@ static void on_exit_check(void) {
     FUZZ_SESSION_CHECK(peer.step == STEP_END, "the firmware left before the end of its input");
 }
 
-void fuzz_console_session(void) {
+void fuzz_console_session(bool programs) {
     static const host_console_peer_t console_peer = {type, at_end, receive};
     static char name[] = "stepmite";
     static char option[] = "--virtual";
     static char *arguments[] = {name, option, NULL};
+    peer.programs = programs;
     fuzz_machine_watch();
     atexit(on_exit_check);
     host_console_attach(&console_peer);

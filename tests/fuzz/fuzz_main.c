@@ -20,7 +20,7 @@
 
 static const char help[] =
     "usage: stepmite_fuzz [--runs N | --seconds N] [--seed N] [--session N] [--target "
-    "console|gcode|both]\n"
+    "console|program|gcode|all]\n"
     "                     [--corpus DIR] [--plant FAULT] [--watchdog SECONDS] [--show]\n"
     "\n"
     "Feeds generated and spoiled input to the firmware and checks after each input what must "
@@ -29,13 +29,16 @@ static const char help[] =
     "  --seconds N      run sessions for this long instead\n"
     "  --seed N         start of the random numbers (default 1)\n"
     "  --session N      run this session only, to repeat one that failed\n"
-    "  --target WHAT    the prompt, the G-code reader, or both in turn (default)\n"
+    "  --target WHAT    the prompt, whole programs, the G-code reader, or all in turn (default)\n"
     "  --corpus DIR     seed inputs, gcode.txt and console.txt\n"
     "  --plant FAULT    plant a fault that has to be found\n"
     "  --watchdog N     seconds after which a session counts as hung (default 120)\n"
     "  --show           print every input\n";
 
-typedef enum { TARGET_BOTH, TARGET_CONSOLE, TARGET_GCODE } target_t;
+// In the order in which they take turns.
+typedef enum { TARGET_GCODE, TARGET_CONSOLE, TARGET_PROGRAM, TARGET_COUNT } target_t;
+
+static const char *const target_names[] = {"gcode", "console", "program", "all"};
 
 static struct {
     unsigned runs;
@@ -48,6 +51,7 @@ static struct {
 } options = {.runs = 20,
              .seed = 1,
              .session = -1,
+             .target = TARGET_COUNT,
              .corpus = FUZZ_CORPUS_DIRECTORY,
              .watchdog_s = WATCHDOG_S};
 
@@ -67,16 +71,12 @@ static uint64_t number(const char *text) {
 }
 
 static target_t target_of(const char *name) {
-    if (strcmp(name, "console") == 0) {
-        return TARGET_CONSOLE;
+    for (target_t target = 0; target <= TARGET_COUNT; target++) {
+        if (strcmp(name, target_names[target]) == 0) {
+            return target;
+        }
     }
-    if (strcmp(name, "gcode") == 0) {
-        return TARGET_GCODE;
-    }
-    if (strcmp(name, "both") != 0) {
-        leave_with_usage("unknown target");
-    }
-    return TARGET_BOTH;
+    leave_with_usage("unknown target");
 }
 
 static fuzz_plant_t plant_of(const char *name) {
@@ -148,18 +148,19 @@ static void parse_options(int argc, char **argv) {
     }
 }
 
-static bool is_console(int session) {
-    return options.target == TARGET_BOTH ? session % 2 == 1 : options.target == TARGET_CONSOLE;
+static target_t target_at(int session) {
+    return options.target == TARGET_COUNT ? (target_t)(session % TARGET_COUNT) : options.target;
 }
 
 // In the child: one life of the firmware.
 static _Noreturn void live(int session) {
     alarm(options.watchdog_s); // ends the process, which the parent sees
     fuzz_random_seed(options.seed * 1000003u + (uint64_t)session);
-    if (is_console(session)) {
-        fuzz_console_session();
-    } else {
+    target_t target = target_at(session);
+    if (target == TARGET_GCODE) {
         fuzz_gcode_session();
+    } else {
+        fuzz_console_session(target == TARGET_PROGRAM);
     }
     fflush(stdout);
     _exit(0);
@@ -179,7 +180,7 @@ static void report(int session, int status) {
     }
     fuzz_session_print("last input", &fuzz_session->input);
     printf("repeat with: stepmite_fuzz --target %s --seed %llu --session %d --show\n",
-           is_console(session) ? "console" : "gcode", (unsigned long long)options.seed, session);
+           target_names[target_at(session)], (unsigned long long)options.seed, session);
 }
 
 static bool run_session(int session) {

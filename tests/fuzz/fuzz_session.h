@@ -61,8 +61,8 @@ _Noreturn void fuzz_session_fail(const char *format, ...) __attribute__((format(
 // Prints a piece of input on one line, unprintable bytes as \xNN.
 void fuzz_session_print(const char *label, const fuzz_text_t *text);
 
-// The two kinds of session.
+// The kinds of session; at the prompt, `programs` makes it one of whole programs.
 void fuzz_gcode_session(void);
-void fuzz_console_session(void);
+void fuzz_console_session(bool programs);
 
 #endif
