@@ -45,8 +45,14 @@ static lfs_ssize_t do_read(lfs_t *lfs, const volume_call_t *call) {
     return lfs_file_read(lfs, call->file, call->bytes, call->size);
 }
 
+// A full disk is found before a further block is begun, so all that came until then is in order. Marked as
+// faulty the file would be left as it was when it was opened.
 static lfs_ssize_t do_write(lfs_t *lfs, const volume_call_t *call) {
-    return lfs_file_write(lfs, call->file, call->source, call->size);
+    lfs_ssize_t result = lfs_file_write(lfs, call->file, call->source, call->size);
+    if (result == LFS_ERR_NOSPC) {
+        call->file->flags &= ~(uint32_t)LFS_F_ERRED;
+    }
+    return result;
 }
 
 static lfs_ssize_t do_seek(lfs_t *lfs, const volume_call_t *call) {

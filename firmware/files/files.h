@@ -52,7 +52,7 @@ void files_abandon(int handle);
 err_t files_read(int handle, void *bytes, size_t size, size_t *got);
 
 // While motion is under way, takes what fits in the file's buffer (up to FILES_BUFFER bytes since the last
-// that went to the flash), and refuses the rest as a whole.
+// that went to the flash), and refuses the rest as a whole. If the disk becomes full what fitted stays.
 #define FILES_BUFFER 128
 err_t files_write(int handle, const void *bytes, size_t size);
 

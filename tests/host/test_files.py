@@ -211,12 +211,15 @@ def test_a_full_disk_is_an_error_and_costs_no_other_file() -> None:
         "n=0: DO: PRINT #1, a$: n=n+1: LOOP",
         "CLOSE",
         'LIST "old"',
+        'OPEN "big" FOR INPUT AS #1: s = LOF(1): PRINT s / 252 >= n, s / 252 < n + 1',
+        "m=0: DO WHILE m<n: LINE INPUT #1, b$: m=m+(b$=a$): LOOP: CLOSE #1: PRINT m=n",
         'KILL "big"',
         *written("new", ["new"]),
         'LIST "new"',
         "PRINT n > 3900",
     )
-    assert shown == ["Error : Not enough space on A:", "old", "new", " 1"]
+    full = "Error : Not enough space on A:"
+    assert shown == [full, "old", " 1\t 1", " 1", "new", " 1"]
 
 
 # ---- G-code from a file --------------------------------------------------------------------------
