@@ -22,7 +22,7 @@ static void set_level(unsigned gpio, bool level) {
 }
 
 static bool is_running(unsigned slot) {
-    return (pulses.running >> slot & 1u) != 0;
+    return ((unsigned)pulses.running >> slot & 1u) != 0;
 }
 
 static void end(unsigned slot) {
