@@ -49,6 +49,13 @@ static void compile_argument(char type) {
     case 'w':
         compile_word_argument();
         break;
+    case 't':
+        if (lexer_take_word("NOW")) {
+            emit_op(OP_BLANK);
+        } else {
+            expressions_compile();
+        }
+        break;
     case 'c':
         lexer_take('#');
         expressions_compile();

@@ -14,7 +14,8 @@ typedef struct {
     const char *name;
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
     // n either number, s string, v any value, a a whole array, c number of a channel, d a value or a
-    // whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or string.
+    // whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or string,
+    // t the word NOW (VALUE_NONE) or any value.
     // `(`: a family of functions whose keyword stands in the parentheses, rows "NAME(KEYWORD".
     const char *types;
     uint8_t least; // arguments
@@ -110,6 +111,11 @@ FUNCTIONS_DECLARE(str2bin)
 FUNCTIONS_DECLARE(bin2str)
 FUNCTIONS_DECLARE(mm_ver)
 FUNCTIONS_DECLARE(mm_watchdog)
+FUNCTIONS_DECLARE(date)
+FUNCTIONS_DECLARE(datetime)
+FUNCTIONS_DECLARE(day)
+FUNCTIONS_DECLARE(epoch)
+FUNCTIONS_DECLARE(time)
 #undef FUNCTIONS_DECLARE
 
 #endif

@@ -128,6 +128,14 @@ const size_t statements_count = COUNT_OF_ARRAY(statements_table);
 
 static void compile_assignment(void) {
     const lexer_token_t *name = lexer_now();
+    if (lexer_is_word("DATE$") || lexer_is_word("TIME$")) {
+        actions_t action = lexer_is_word("DATE$") ? ACTIONS_SET_DATE : ACTIONS_SET_TIME;
+        lexer_next();
+        lexer_expect('=');
+        expressions_compile();
+        emit_action(action, 1);
+        return;
+    }
     int row = words_find(WORDS_ASSIGNMENT, name->text, name->length);
     if (row != WORDS_NONE) {
         args_compile_assignment(row);
