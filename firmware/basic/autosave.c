@@ -31,7 +31,7 @@ static void append(const char *line, size_t length) {
 
 // True when the text is complete, false when it was given up.
 static bool read_lines(bool *start) {
-    const line_editor_options_t options = {.prompt = "", .keep_tabs = true};
+    const line_editor_options_t options = {.prompt = "", .finish_keys = true, .keep_tabs = true};
     *start = false;
     for (;;) {
         const char *line;

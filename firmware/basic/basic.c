@@ -9,6 +9,7 @@
 #include "boot.h"
 #include "channels.h"
 #include "compiler.h"
+#include "complete.h"
 #include "console.h"
 #include "editor.h"
 #include "errors.h"
@@ -210,7 +211,8 @@ static void (*on_program_error(void))(void) {
 }
 
 static bool has_routine(const char *name) {
-    return symbols_find(SYMBOLS_ROUTINE, 0, name, strlen(name)) != NULL;
+    const symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, name, strlen(name));
+    return symbol != NULL && !symbol->routine->is_function;
 }
 
 // Runs a SUB of the program, if it has one of this name.
@@ -218,10 +220,11 @@ static err_t run_routine(const char *name, void (*on_error)(void)) {
     if (!has_routine(name)) {
         return ERR_OK;
     }
-    line.text = name;
-    line.length = strlen(name);
     uint8_t *scratch = memory.scratch;
     err_t error = ERR_NO_MEMORY;
+    vm.statement = NULL;
+    line.text = name;
+    line.length = strlen(name);
     if (errors_try(compile_line) == ERRORS_NONE) {
         error = run(line.code, on_error);
     } else {
@@ -337,6 +340,7 @@ void basic_start(const basic_config_t *new_config) {
     line_editor_start();
     args_start(config);
     channels_start(config);
+    complete_start(config);
     help_start(config);
     machine_start(config->may_restart);
     words_start(config);
@@ -383,13 +387,23 @@ err_t basic_run_program(const char *source, size_t length) {
     return error;
 }
 
-bool basic_prompt(void) {
-    static const line_editor_options_t options = {.prompt = "> ", .history = true};
+// The program may have its own prompt.
+static const char *start_prompt(void) {
     console_fresh_line();
     show_waiting_notices();
     if (console_lost_input()) {
         console_print("Warning: input that the program did not read was lost\r\n");
     }
+    if (!has_routine("MM.PROMPT") || run_routine("MM.PROMPT", nothing) != ERR_OK) {
+        return "> ";
+    }
+    requests_clear();
+    vm.request = VM_REQUEST_NONE;
+    return "";
+}
+
+bool basic_prompt(void) {
+    const line_editor_options_t options = {.prompt = start_prompt(), .prompt_keys = true};
     line_editor_result_t end = line_editor_read(&options, &line.text, &line.length);
     switch (end) {
     case LINE_EDITOR_LINE:

@@ -263,7 +263,7 @@ static void put(char c) {
         console.column += TAB_WIDTH - console.column % TAB_WIDTH;
     } else if (c == '\b') {
         console.column -= console.column > 0;
-    } else if ((uint8_t)c >= ' ') {
+    } else if ((uint8_t)c >= ' ' && ((uint8_t)c & 0xC0) != 0x80) { // UTF-8: one for a character
         console.column++;
     }
 }

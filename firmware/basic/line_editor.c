@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "base/base.h"
+#include "complete.h"
 #include "console.h"
 #include "history.h"
 #include "keys.h"
+#include "line_screen.h"
 
 #define DELETE_BACK 127
 
@@ -19,7 +21,8 @@ static struct {
     bool overwrite;
     bool too_long;
     bool active;
-    bool at_margin;
+    bool entered; // a function key has the line ready
+    bool tabbed;  // the key before was a Tab that led nowhere
     unsigned age; // lines back in the history, 0: the line being typed
 } editor;
 
@@ -28,72 +31,13 @@ void line_editor_start(void) {
     memset(&editor, 0, sizeof editor);
 }
 
-// ---- Screen --------------------------------------------------------------------------------------
-
-// Cells are counted from the start of the prompt, rows below each other. A terminal that has filled the
-// last cell of a row stays there until the next character comes: that is at_margin.
-static size_t cell_of(size_t place) {
-    return strlen(editor.options->prompt) + place;
-}
-
-static size_t row_of_cursor(size_t place) {
-    return cell_of(place) / console_columns() - (editor.at_margin ? 1 : 0);
-}
-
-static void write_line(size_t from, size_t to) {
-    if (to > from) {
-        console_write(editor.line + from, to - from);
-        editor.at_margin = cell_of(to) % console_columns() == 0;
-    }
-}
-
-static void print_sequence(size_t count, char letter) {
-    char sequence[16];
-    format_text(sequence, sizeof sequence, "\x1b[%u%c", (unsigned)count, letter);
-    console_print(sequence);
-}
-
-// The screen's cursor from one place of the line to an earlier one.
-static void move_back(size_t from, size_t to) {
-    size_t rows = row_of_cursor(from) - cell_of(to) / console_columns();
-    bool same_row = rows == 0 && !editor.at_margin;
-    editor.at_margin = editor.at_margin && from == to;
-    if (from == to) {
-        return;
-    }
-    if (same_row) {
-        if (from - to == 1) {
-            console_print("\b");
-        } else {
-            print_sequence(from - to, 'D');
-        }
-        return;
-    }
-    if (rows > 0) {
-        print_sequence(rows, 'A');
-    }
-    console_print("\r");
-    if (cell_of(to) % console_columns() > 0) {
-        print_sequence(cell_of(to) % console_columns(), 'C');
-    }
-}
-
-// Draws the line from `from` on, where the screen's cursor is, and leaves it at editor.cursor.
-static void draw_from(size_t from) {
-    write_line(from, editor.length);
-    if (editor.at_margin) { // erasing here would take the last character
-        console_print(" \b");
-        editor.at_margin = false;
-    }
-    console_print("\x1b[J");
-    move_back(editor.length, editor.cursor);
-}
+// ---- Screen -------------------------------------------------------------------------------------
 
 static void set_cursor(size_t place) {
     if (place < editor.cursor) {
-        move_back(editor.cursor, place);
+        line_screen_back(editor.cursor, place);
     } else {
-        write_line(editor.cursor, place);
+        line_screen_write(editor.cursor, place);
     }
     editor.cursor = place;
 }
@@ -102,19 +46,15 @@ bool line_editor_hide(void) {
     if (!editor.active) {
         return false;
     }
-    size_t rows = row_of_cursor(editor.cursor);
-    if (rows > 0) {
-        print_sequence(rows, 'A');
-    }
-    console_print("\r\x1b[J");
-    editor.at_margin = false;
+    line_screen_hide(editor.cursor, editor.length, editor.options->prompt);
     return true;
 }
 
 void line_editor_show(void) {
     console_print(editor.options->prompt);
-    write_line(0, editor.length);
-    move_back(editor.length, editor.cursor);
+    line_screen_start(editor.line);
+    line_screen_write(0, editor.length);
+    line_screen_back(editor.length, editor.cursor);
     console_flush();
 }
 
@@ -122,41 +62,95 @@ static void replace_line(const char *text, size_t length) {
     set_cursor(0);
     memcpy(editor.line, text, length);
     editor.length = editor.cursor = length;
-    draw_from(0);
+    line_screen_draw(0, length, length);
 }
 
-// ---- Editing -------------------------------------------------------------------------------------
+// ---- Moving -------------------------------------------------------------------------------------
+
+static size_t before(size_t place) {
+    while (place > 1 && line_screen_continues(editor.line[place - 1])) {
+        place--;
+    }
+    return place > 0 ? place - 1 : 0;
+}
+
+static size_t behind(size_t place) {
+    place += place < editor.length;
+    while (place < editor.length && line_screen_continues(editor.line[place])) {
+        place++;
+    }
+    return place;
+}
+
+static bool is_word_part(size_t place) {
+    char c = editor.line[place];
+    return c != ' ' && strchr("()\",:;=+-*/<>", c) == NULL;
+}
+
+static size_t word_before(size_t place) {
+    while (place > 0 && !is_word_part(place - 1)) {
+        place--;
+    }
+    while (place > 0 && is_word_part(place - 1)) {
+        place--;
+    }
+    return place;
+}
+
+static size_t word_behind(size_t place) {
+    while (place < editor.length && is_word_part(place)) {
+        place++;
+    }
+    while (place < editor.length && !is_word_part(place)) {
+        place++;
+    }
+    return place;
+}
+
+// ---- Changing -----------------------------------------------------------------------------------
+
+// Takes out what stands from `place` up to the cursor or, if that is behind it, from the cursor on.
+static void delete_to(size_t place) {
+    size_t start = place < editor.cursor ? place : editor.cursor;
+    size_t end = place < editor.cursor ? editor.cursor : place;
+    if (start == end) {
+        return;
+    }
+    set_cursor(start);
+    memmove(editor.line + start, editor.line + end, editor.length - end);
+    editor.length -= end - start;
+    line_screen_draw(start, editor.length, start);
+}
 
 static void insert(char c) {
-    bool replaces = editor.overwrite && editor.cursor < editor.length;
-    if (!replaces && editor.length == LINE_EDITOR_MAX) {
+    bool continues = line_screen_continues(c);
+    if (editor.overwrite && !continues && editor.cursor < editor.length) {
+        size_t end = behind(editor.cursor);
+        memmove(editor.line + editor.cursor, editor.line + end, editor.length - end);
+        editor.length -= end - editor.cursor;
+    }
+    if (editor.length == LINE_EDITOR_MAX) {
         editor.too_long = true;
         return;
     }
-    if (!replaces) {
-        memmove(editor.line + editor.cursor + 1, editor.line + editor.cursor,
-                editor.length - editor.cursor);
-        editor.length++;
+    size_t place = editor.cursor;
+    if (continues && place > 0 && place < editor.length) { // draw its character anew
+        line_screen_back(place, before(place));
+        place = before(place);
     }
+    memmove(editor.line + editor.cursor + 1, editor.line + editor.cursor,
+            editor.length - editor.cursor);
+    editor.length++;
     editor.line[editor.cursor++] = c;
     if (editor.cursor == editor.length) {
-        write_line(editor.cursor - 1, editor.cursor);
+        line_screen_write(place, editor.cursor);
     } else {
-        draw_from(editor.cursor - 1);
-    }
-}
-
-static void delete_at_cursor(void) {
-    if (editor.cursor < editor.length) {
-        memmove(editor.line + editor.cursor, editor.line + editor.cursor + 1,
-                editor.length - editor.cursor - 1);
-        editor.length--;
-        draw_from(editor.cursor);
+        line_screen_draw(place, editor.length, editor.cursor);
     }
 }
 
 static void recall(int step) {
-    if (!editor.options->history || (step < 0 && editor.age == 0)) {
+    if (!editor.options->prompt_keys || (step < 0 && editor.age == 0)) {
         return;
     }
     char line[LINE_EDITOR_MAX];
@@ -169,33 +163,96 @@ static void recall(int step) {
     replace_line(line, length);
 }
 
+// ---- Tab and function keys ----------------------------------------------------------------------
+
+static void complete(void) {
+    complete_t found;
+    complete_find(editor.line, editor.cursor, &found);
+    if (found.count == 0 && editor.cursor == 0) {
+        insert(' ');
+        return;
+    }
+    for (size_t i = 0; i < found.more_length; i++) {
+        insert(found.more[i]);
+    }
+    bool stuck = found.count > 1 && found.more_length == 0;
+    if (stuck && editor.tabbed) {
+        set_cursor(editor.length);
+        console_new_line();
+        complete_list(editor.line, editor.cursor);
+        line_editor_show();
+    }
+    editor.tabbed = stuck;
+}
+
+// A tab in a paste is a blank between words, or text.
+static void tab(void) {
+    if (editor.options->keep_tabs) {
+        insert('\t');
+    } else if (editor.options->prompt_keys && !keys_in_burst()) {
+        complete();
+    } else {
+        insert(' ');
+    }
+}
+
+static bool is_function_key(int key) {
+    return key >= KEYS_F1 && key <= KEYS_F12;
+}
+
+// Some stand for a whole line.
+static void press_function_key(int key) {
+    static const char *const lines[] = {
+        "FILES", "RUN", "LIST",     "EDIT",           NULL,          NULL, NULL,
+        NULL,    NULL,  "AUTOSAVE", "XMODEM RECEIVE", "XMODEM SEND",
+    };
+    const char *line = lines[key - KEYS_F1];
+    if (line != NULL && editor.options->prompt_keys) {
+        replace_line(line, strlen(line));
+        editor.entered = true;
+    }
+}
+
+// ---- Keys ---------------------------------------------------------------------------------------
+
 static void edit(int key) {
     switch (key) {
     case KEYS_LEFT:
-        set_cursor(editor.cursor > 0 ? editor.cursor - 1 : 0);
+    case KEYS_CONTROL('S'):
+        set_cursor(before(editor.cursor));
         break;
     case KEYS_RIGHT:
-        set_cursor(editor.cursor < editor.length ? editor.cursor + 1 : editor.cursor);
+    case KEYS_CONTROL('D'):
+        set_cursor(behind(editor.cursor));
+        break;
+    case KEYS_LEFT | KEYS_CTRL:
+        set_cursor(word_before(editor.cursor));
+        break;
+    case KEYS_RIGHT | KEYS_CTRL:
+        set_cursor(word_behind(editor.cursor));
         break;
     case KEYS_HOME:
     case KEYS_CONTROL('A'):
         set_cursor(0);
         break;
     case KEYS_END:
+    case KEYS_CONTROL('K'):
         set_cursor(editor.length);
         break;
     case KEYS_INSERT:
+    case KEYS_CONTROL('N'):
         editor.overwrite = !editor.overwrite;
         break;
     case '\b':
     case DELETE_BACK:
-        if (editor.cursor > 0) {
-            set_cursor(editor.cursor - 1);
-            delete_at_cursor();
-        }
+        delete_to(before(editor.cursor));
+        break;
+    case KEYS_CONTROL('W'):
+        delete_to(word_before(editor.cursor));
         break;
     case KEYS_DELETE:
-        delete_at_cursor();
+    case KEYS_CONTROL(']'):
+        delete_to(behind(editor.cursor));
         break;
     case KEYS_CONTROL('U'):
         replace_line("", 0);
@@ -209,20 +266,23 @@ static void edit(int key) {
         recall(-1);
         break;
     case KEYS_TAB:
-        insert(editor.options->keep_tabs ? '\t' : ' ');
+        tab();
         break;
     default:
-        if (key >= ' ' && key <= 255) {
+        if (is_function_key(key)) {
+            press_function_key(key);
+        } else if (key >= ' ' && key <= 255) {
             insert((char)key);
         } else if (key < ' ') { // nobody's: noise
             console_offer_control(key);
         }
         break;
     }
+    editor.tabbed = editor.tabbed && key == KEYS_TAB;
 }
 
 static line_editor_result_t finish(line_editor_result_t result) {
-    if (editor.cursor < editor.length && cell_of(editor.length) > console_columns()) {
+    if (line_screen_has_rows_below(editor.cursor, editor.length)) {
         set_cursor(editor.length); // what comes next must not stand on the line's lower rows
     }
     console_new_line();
@@ -231,10 +291,30 @@ static line_editor_result_t finish(line_editor_result_t result) {
     if (editor.too_long && result != LINE_EDITOR_BREAK) {
         return LINE_EDITOR_TOO_LONG;
     }
-    if (result == LINE_EDITOR_LINE && editor.options->history) {
+    if (result == LINE_EDITOR_LINE && editor.options->prompt_keys) {
         history_add(editor.line, editor.length);
     }
     return result;
+}
+
+// True if the key ends the line, and how.
+static bool ends_line(int key, line_editor_result_t *result) {
+    bool finish_keys = editor.options->finish_keys;
+    *result = LINE_EDITOR_LINE;
+    if (console_is_break(key) || console_break_pending()) {
+        editor.length = editor.cursor = 0;
+        *result = LINE_EDITOR_BREAK;
+    } else if (key == KEYS_NO_INPUT) {
+        bool partial = editor.length > 0 || editor.too_long;
+        *result = partial ? LINE_EDITOR_LINE : LINE_EDITOR_END;
+    } else if (key == KEYS_CONTROL('Z') || (key == KEYS_F1 && finish_keys)) {
+        *result = LINE_EDITOR_FINISHED;
+    } else if (key == KEYS_F2 && finish_keys) {
+        *result = LINE_EDITOR_FINISHED_RUN;
+    } else {
+        return key == KEYS_RETURN;
+    }
+    return true;
 }
 
 line_editor_result_t line_editor_read(const line_editor_options_t *options, const char **line,
@@ -242,36 +322,22 @@ line_editor_result_t line_editor_read(const line_editor_options_t *options, cons
     editor.options = options;
     editor.length = editor.cursor = 0;
     editor.age = 0;
-    editor.overwrite = editor.too_long = editor.at_margin = false;
+    editor.overwrite = editor.too_long = editor.entered = editor.tabbed = false;
     editor.active = true;
     console_print(options->prompt);
+    line_screen_start(editor.line);
     line_editor_result_t result;
-    for (;;) {
-        int key = keys_read(UINT64_MAX);
-        if (key == KEYS_RETURN) {
-            result = finish(LINE_EDITOR_LINE);
-            break;
-        }
-        if (console_is_break(key) || console_break_pending()) {
-            editor.length = 0;
-            result = finish(LINE_EDITOR_BREAK);
-            break;
-        }
-        if (key == KEYS_CONTROL('Z') || key == KEYS_F1) {
-            result = finish(LINE_EDITOR_FINISHED);
-            break;
-        }
-        if (key == KEYS_F2) {
-            result = finish(LINE_EDITOR_FINISHED_RUN);
-            break;
-        }
-        if (key == KEYS_NO_INPUT) {
-            editor.active = false;
-            bool partial = editor.length > 0 || editor.too_long;
-            result = partial ? finish(LINE_EDITOR_LINE) : LINE_EDITOR_END;
-            break;
-        }
+    int key;
+    while (!ends_line(key = keys_read(UINT64_MAX), &result)) {
         edit(key);
+        if (editor.entered) {
+            break;
+        }
+    }
+    if (result == LINE_EDITOR_END) {
+        editor.active = false;
+    } else {
+        result = finish(result);
     }
     *line = editor.line;
     *length = editor.length;

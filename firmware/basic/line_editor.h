@@ -1,5 +1,6 @@
-// One line from the terminal, with the keys of a VT100: left, right, Home, End, Ins, Del, Backspace,
-// up and down through the history, Ctrl-U. Context: main loop.
+// One line from the terminal, with the usual keys: left, right (with Ctrl by words), Home, End,
+// Ins, Del, Backspace, Ctrl-U for the whole line, up and down through the history, Tab. Context:
+// main loop.
 #ifndef BASIC_LINE_EDITOR_H
 #define BASIC_LINE_EDITOR_H
 
@@ -19,7 +20,8 @@ typedef enum {
 
 typedef struct {
     const char *prompt; // drawn before the line
-    bool history;       // up and down recall lines, and this line is remembered
+    bool prompt_keys;   // Tab completes, up and down recall lines, function keys stand for lines
+    bool finish_keys;   // F1 and F2 end all input, as Ctrl-Z does
     bool keep_tabs;     // a tab is text, not a key
 } line_editor_options_t;
 

@@ -86,6 +86,16 @@ symbols_t *symbols_get(symbols_kind_t kind, uint16_t scope, const char *name, si
     return symbol;
 }
 
+void symbols_each(void (*visit)(symbols_t *symbol)) {
+    for (unsigned i = 0; i < BUCKETS; i++) {
+        for (uint16_t handle = symbols.buckets[i]; handle != 0;) {
+            symbols_t *symbol = memory_place(handle);
+            handle = symbol->next;
+            visit(symbol);
+        }
+    }
+}
+
 void symbols_each_label(void (*visit)(symbols_t *label)) {
     for (unsigned i = 0; i < BUCKETS; i++) {
         for (uint16_t handle = symbols.buckets[i]; handle != 0;) {

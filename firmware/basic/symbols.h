@@ -63,6 +63,9 @@ symbols_t *symbols_get(symbols_kind_t kind, uint16_t scope, const char *name, si
 // Zeroed memory that lives as long as the names do.
 void *symbols_memory(size_t size);
 
+// Calls `visit` for every name.
+void symbols_each(void (*visit)(symbols_t *symbol));
+
 // Calls `visit` for every label.
 void symbols_each_label(void (*visit)(symbols_t *label));
 

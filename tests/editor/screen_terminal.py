@@ -67,6 +67,11 @@ class ScreenTerminal:
         """Type nothing for so long that virtual time goes on, if the machine has something to do."""
         select.select([self.master], [], [], 0.1)
 
+    def settle(self) -> None:
+        """Take in what the program says until it says nothing more."""
+        while select.select([self.master], [], [], 0.03)[0]:
+            self.stream.feed(os.read(self.master, 65536))
+
     def enter_program(self, text: str) -> None:
         """Store a program."""
         self.type("AUTOSAVE\r", b"\r\n")

@@ -1,0 +1,120 @@
+"""Keys at the prompt, on the screen of a terminal emulator: Tab, words, function keys, UTF-8."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+import pytest
+from screen_terminal import ScreenTerminal
+
+LEFT, HOME, WORD_LEFT, WORD_RIGHT = "\x1b[D", "\x1b[H", "\x1b[1;5D", "\x1b[1;5C"
+PROGRAM = "SUB drill(n)\nPRINT n\nEND SUB\nFUNCTION depth()\ndepth = 3\nEND FUNCTION\n"
+
+
+@pytest.fixture
+def terminal() -> Iterator[ScreenTerminal]:
+    at = ScreenTerminal()
+    yield at
+    at.close()
+
+
+def typed(at: ScreenTerminal, *keys: str) -> str:
+    """Type keys one by one; the last line on the screen."""
+    for key in keys:
+        os.write(at.master, key.encode())
+        at.settle()
+    return [row for row in at.rows() if row][-1]
+
+
+@pytest.mark.parametrize(
+    ("start", "line"),
+    [
+        ("PRI", "> PRINT"),
+        ("pri", "> print"),
+        ("RAN", "> RANDOMIZE"),
+        ("STEPPER JUN", "> STEPPER JUNCTION"),
+        ("stepper jun", "> stepper junction"),
+        ("a=5:STEPPER JUN", "> a=5:STEPPER JUNCTION"),
+        ("IF a THEN STEPPER JUN", "> IF a THEN STEPPER JUNCTION"),
+        ("HELP STEPPER JUN", "> HELP STEPPER JUNCTION"),
+        ("PRINT UCA", "> PRINT UCASE$("),
+        ("PRINT 2+PEE", "> PRINT 2+PEEK("),
+        ("dri", "> drill"),
+        ("PRINT dep", "> PRINT depth("),
+        ("PRINT dri", "> PRINT dri"),
+        ("PRINT UCX", "> PRINT UCX"),
+        ("PRINT LE", "> PRINT LE"),
+    ],
+)
+def test_tab_completes(terminal: ScreenTerminal, start: str, line: str) -> None:
+    terminal.enter_program(PROGRAM)
+    assert typed(terminal, start, "\t") == line
+
+
+def test_a_second_tab_lists_what_it_could_be(terminal: ScreenTerminal) -> None:
+    typed(terminal, "PRINT LE", "\t", "\t")
+    rows = [row for row in terminal.rows() if row]
+    assert rows[-3] == "> PRINT LE"
+    assert rows[-2].split() == ["LEFT$(", "LEN("]
+    assert rows[-1] == "> PRINT LE"
+    assert typed(terminal, 'FT$("ab",1)\r', "") == ">"
+    assert "a" in terminal.rows()
+
+
+def test_tab_completes_names_of_files(terminal: ScreenTerminal) -> None:
+    terminal.type('MKDIR "parts"\r')
+    terminal.type('CHDIR "parts":OPEN "Gear.nc" FOR OUTPUT AS 1:CLOSE:CHDIR "/"\r')
+    assert typed(terminal, 'LIST "pa', "\t") == '> LIST "parts/'
+    assert typed(terminal, "G", "\t") == '> LIST "parts/Gear.nc'
+    assert typed(terminal, "\x15", 'LIST "parts/g', "\t") == '> LIST "parts/g'  # capitals count
+
+
+def test_a_tab_in_a_paste_is_a_blank(terminal: ScreenTerminal) -> None:
+    assert typed(terminal, "PRINT\t1+\t2\r").startswith(">")
+    assert "> PRINT 1+ 2" in terminal.rows()
+
+
+def test_words_are_jumped_over_and_deleted(terminal: ScreenTerminal) -> None:
+    assert typed(terminal, "PRINT one, two", WORD_LEFT, "x") == "> PRINT one, xtwo"
+    assert typed(terminal, WORD_LEFT, WORD_LEFT, "\x17") == "> one, xtwo"
+    assert typed(terminal, WORD_RIGHT, "y") == "> one, yxtwo"
+
+
+def test_letters_beyond_ascii_are_one_place(terminal: ScreenTerminal) -> None:
+    assert typed(terminal, "'Größe", LEFT, LEFT, "\x7f", "ä") == "> 'Gräße"
+    assert terminal.cursor()[1] == 6
+    assert typed(terminal, HOME, "\x1b[3~", "ü", "ö") == "> üöGräße"
+    assert terminal.cursor()[1] == 4
+    assert typed(terminal, "\x1b[2~", "x", "y", "z") == "> üöxyzße"
+
+
+@pytest.mark.parametrize(
+    ("key", "line"), [("\x1bOQ", "> RUN"), ("\x1b[13~", "> LIST"), ("\x1b[[A", "> FILES")]
+)
+def test_function_keys_are_lines(terminal: ScreenTerminal, key: str, line: str) -> None:
+    terminal.enter_program("PRINT 7\n")
+    terminal.type("unfinished" + key)
+    assert line in terminal.rows()
+
+
+def test_f4_edits_and_f10_takes_a_program(terminal: ScreenTerminal) -> None:
+    terminal.type("\x1b[21~", b"\r\n")
+    terminal.type("PRINT 8\r\x1bOP")
+    terminal.key("\x1bOS")
+    assert terminal.rows()[0] == "PRINT 8"
+    terminal.type("\x1b", b"\r> ")
+
+
+def test_unknown_sequences_and_bracketed_pastes_do_nothing_strange(terminal) -> None:
+    noise = ["\x1b[99~", "\x1b[?1;2c", "\x1b[200~", "\x1bOx", "\x1b[12;34;56m", "\x1b[201~"]
+    assert typed(terminal, "PRINT ", *noise, "5") == "> PRINT 5"
+
+
+def test_a_program_can_have_its_own_prompt(terminal: ScreenTerminal) -> None:
+    terminal.type("AUTOSAVE\r", b"\r\n")
+    terminal.type('SUB MM.PROMPT\rn = n + 1\rPRINT "line"; n; ": ";\rEND SUB\r\x1a', b"line 1: ")
+    terminal.type("PRINT 3\r", b"line 2: ")
+    assert typed(terminal, "PRINT 12", LEFT, "x") == "line 2: PRINT 1x2"
+    assert terminal.cursor()[1] == 16
+    terminal.type("\x15NEW\r", b"\r\n> ")
