@@ -64,7 +64,7 @@ class ScreenTerminal:
         self.key("\x1b")
 
     def let_time_pass(self) -> None:
-        """Type nothing for so long that virtual time goes on, if the machine has something to do."""
+        """Type nothing for so long that virtual time goes on, if there is something to do."""
         select.select([self.master], [], [], 0.1)
 
     def settle(self) -> None:
