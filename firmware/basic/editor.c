@@ -164,7 +164,7 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
     if (error != ERR_OK) {
         return error;
     }
-    editor_view_start(file, false);
+    editor_view_start(file, options_get(OPTIONS_COLOUR) != 0);
     set_first_place(file == NULL);
     for (;;) {
         editor_commands_end_t end = read_keys(key, on_break);

@@ -272,6 +272,19 @@ def test_bytes_that_are_no_characters_are_shown_as_question_marks(terminal) -> N
     assert terminal.rows()[0] == "' a?b ? ?x ä"
 
 
+def test_colours_and_tab_stops_are_options(terminal: ScreenTerminal) -> None:
+    terminal.enter_program('IF a THEN PRINT "x", 12 \' why\n')
+    terminal.type("OPTION COLOURCODE ON\rOPTION TAB 4\r", b"TAB 4\r\n> ")
+    terminal.edit()
+    row = terminal.screen.buffer[0]
+    colours = {
+        word: row[terminal.rows()[0].index(word)].fg for word in ["IF", "a", '"x', "12", "'"]
+    }
+    assert colours == {"IF": "cyan", "a": "default", '"x': "magenta", "12": "green", "'": "brown"}
+    keys(terminal, START, "\t")
+    assert terminal.rows()[0].startswith("    IF a")
+
+
 # ---- What it costs -------------------------------------------------------------------------------
 
 
