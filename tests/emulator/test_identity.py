@@ -1,6 +1,7 @@
 """The step train of the emulated UF2 and of the host program: the same pins, order and ticks."""
 
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,9 @@ from stepmite.ticks import (
     tick_train,
 )
 from stepmite.trace import Edges
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "host"))
+from busy_program import BUSY, DONE
 
 HOST = PROJECT / "build" / "host" / "stepmite"
 STEP, DIR, SPINDLE = (2, 4, 6, 8), (3, 5, 7, 9), 15
@@ -111,6 +115,19 @@ def test_figure_with_four_axes(board: Emulator, tmp_path: Path) -> None:
     assert_same(host, snapped)
     late = latencies_ns(raw, board.tick_runs())
     assert late.max() < TICK_NS / 2, "the rounding must not be a matter of luck"
+
+
+def test_figure_while_a_program_is_busy(board: Emulator, tmp_path: Path) -> None:
+    """Events, errors, texts, pins and refused writes of the flash: the same edges as at rest."""
+    lines = queue(FIGURE)
+    host = host_edges(lines, tmp_path)
+    board.send("AUTOSAVE\r" + BUSY.replace("\n", "\r") + "\x1a")
+    board.until("\n> ", 5000)
+    for line in lines[: lines.index(WAIT)]:
+        assert "rror" not in board.command(line)
+    assert DONE in board.command("RUN", timeout_ms=200_000)
+    snapped = snap_to_ticks(Edges.from_rows(board.edges()), board.tick_runs())
+    assert_same(host, snapped)
 
 
 def test_grid_can_be_found_from_the_edges_alone(board: Emulator, tmp_path: Path) -> None:

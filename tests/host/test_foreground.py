@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 
 import pytest
+from busy_program import BUSY, DONE
 
 STEPMITE = Path(__file__).parents[2] / "build" / "host" / "stepmite"
 DEADLINE_S = 120.0  # wall time after which a test counts as hung
@@ -79,6 +80,7 @@ FILES = [
     "CLOSE #2",
     'LIST ALL "text"',
 ]
+STORED = ["AUTOSAVE", *BUSY.splitlines(), "\x1a"]
 FOREGROUNDS = {
     "loop": [LOOP],
     "string churn": [CHURN],
@@ -86,13 +88,14 @@ FOREGROUNDS = {
     "questions": ["STEPPER STATUS", "PRINT PEEK(STEPPER X)", "HELP STEPPER"] * 60,
     "files": FILES * 10,
     "long text": [LONG_TEXT],
+    "a busy program": ["RUN"],
     "all": [*ERRORS * 5, LONG_TEXT.replace("20000", "2000"), *ERRORS, CHURN],
 }
 
 
 def lines(foreground: list[str]) -> bytes:
     queued = [f'STEPPER GS "{line}"' for line in JOB]
-    typed = [*SETUP, *queued, "STEPPER RUN", *foreground, WAIT, "STEPPER STATUS", ""]
+    typed = [*SETUP, *STORED, *queued, "STEPPER RUN", *foreground, WAIT, "STEPPER STATUS", ""]
     return "\r".join(typed).encode()
 
 
@@ -120,6 +123,8 @@ def run(folder: Path, foreground: list[str]) -> list[tuple[int, ...]]:
         check=False,
     )
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    if "RUN" in foreground:
+        assert f"\n{DONE}\r\n".encode() in done.stdout
     check_status(done.stdout[-3000:].decode())
     return edges(trace)
 
