@@ -179,6 +179,65 @@ class Board:
                 raise BoardError(line.removeprefix("Error : ").strip(), output[:number])
         return output
 
+    def converse(
+        self,
+        text: str,
+        work: Callable[[Port, bytes], bool],
+        wait_for: bytes | None,
+        timeout_s: float = 15.0,
+    ) -> tuple[list[str], bool]:
+        """Carry out a line that makes the port speak another protocol for a while.
+
+        `work` gets the port and the byte that came first. It is called once the board sends one of
+        `wait_for`, or, if that is None, is silent; not if the board shows its prompt instead.
+        Returns what the board printed before and behind it, and what `work` returned.
+        """
+        self._flush_notices()
+        self._screen.clear_current()
+        self._write(text.encode("ascii") + b"\r")
+        first = self._await_first(text, wait_for, timeout_s)
+        done = False
+        if first is not None:
+            try:
+                done = work(self._port, first)
+            except (serial.SerialException, OSError) as error:
+                raise BoardGone(f"the connection is broken: {_reason(error)}") from None
+        deadline = time.monotonic() + timeout_s
+        while not self._at_prompt():
+            if self._receive():
+                deadline = time.monotonic() + timeout_s
+            elif time.monotonic() > deadline:
+                raise BoardGone(f"no answer within {timeout_s:g} s to: {text}")
+        output = [line for line in self._screen.lines if line]
+        self._screen.forget()
+        return output, done
+
+    def _await_first(self, text: str, wait_for: bytes | None, timeout_s: float) -> bytes | None:
+        """Return the first byte behind the echo that opens the other protocol.
+
+        None: the board is at its prompt again. It reads byte by byte: what follows is not ours.
+        """
+        echo = self._echo
+        deadline = time.monotonic() + timeout_s
+        quiet = time.monotonic() + QUIET_S
+        while time.monotonic() < deadline:
+            if not echo and self._at_prompt():
+                return None
+            byte = self._port.read(1)
+            if not echo and wait_for is None and not byte and time.monotonic() > quiet:
+                return b""
+            if not byte:
+                continue
+            quiet = time.monotonic() + QUIET_S
+            opens = wait_for is not None and byte in wait_for and self._screen.current == ""
+            if not echo and opens:
+                return byte
+            self._screen.feed(byte.decode("latin-1"))
+            if echo and any(line.endswith(text) for line in self._screen.lines):
+                echo = False
+                self._screen.forget()
+        raise BoardGone(f"no answer within {timeout_s:g} s to: {text}")
+
     def evaluate(self, expression: str) -> float:
         """Return the value of a numeric BASIC expression."""
         output = self.command(f"PRINT {expression}")

@@ -67,6 +67,35 @@ def stream(
 
 
 @app.command()
+def put(
+    file: Annotated[Path, typer.Argument(exists=True, dir_okay=False, help="File on this PC.")],
+    name: Annotated[
+        str | None, typer.Argument(help="Its name on the board; same if left out.")
+    ] = None,
+    port: PortOption = None,
+) -> None:
+    """Copy a file to the board's disk."""
+    from stepmite import transfer_cmd
+
+    raise typer.Exit(transfer_cmd.put(file, name or file.name, _device(port)))
+
+
+@app.command()
+def get(
+    name: Annotated[str, typer.Argument(help="File on the board.")],
+    file: Annotated[
+        Path | None, typer.Argument(dir_okay=False, help="Where to; same name if left out.")
+    ] = None,
+    port: PortOption = None,
+) -> None:
+    """Copy a file from the board's disk."""
+    from stepmite import transfer_cmd
+
+    target = file or Path(name.replace("\\", "/").rsplit("/", 1)[-1].removeprefix("A:"))
+    raise typer.Exit(transfer_cmd.get(name, target, _device(port)))
+
+
+@app.command()
 def ports() -> None:
     """List the serial ports; boards that may be a StepMite come first."""
     from stepmite.ports import show
