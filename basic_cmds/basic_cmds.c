@@ -144,6 +144,11 @@ static const basic_arg_spec_t peek_args[] = {
              "or SPEED along the path in mm/min"},
 };
 
+static const basic_arg_spec_t option_error_args[] = {
+    {"what", BASIC_ARG_CHOICE, .choices = CONTROL_ERROR_CHOICES,
+     .help = "motion comes to a controlled stop, or runs out"},
+};
+
 #define ARGS(spec) .args = (spec), .arg_count = COUNT_OF_ARRAY(spec)
 
 const basic_command_t basic_cmds_commands[] = {
@@ -197,6 +202,8 @@ const basic_command_t basic_cmds_commands[] = {
     {"PWM SYNC", ARGS(pin_values_sync_args), pin_values_sync, "Starts several slices together"},
     {"SERVO", ARGS(pin_values_servo_args), pin_values_servo, "Makes the pulses for model servos"},
     {"SERVO", ARGS(pin_values_pwm_off_args), pin_values_pwm_off, "Ends them"},
+    {"OPTION ERROR", ARGS(option_error_args), control_option_error,
+     "Says what becomes of motion when an error ends a program; kept over power-off"},
 };
 const size_t basic_cmds_command_count = COUNT_OF_ARRAY(basic_cmds_commands);
 
@@ -234,6 +241,10 @@ void basic_cmds_break(void) {
         basic_notice("Ctrl-C: motion stops, what was queued is dropped");
     }
     stepper_stop();
+}
+
+void basic_cmds_error(void) {
+    control_error();
 }
 
 err_t basic_cmds_may_restart(void) {

@@ -22,6 +22,9 @@ void basic_cmds_background(void);
 // Ctrl-C: brings motion to a controlled stop.
 void basic_cmds_break(void);
 
+// An error has ended a program: motion stops or runs out, as OPTION ERROR says. Drivers stay on.
+void basic_cmds_error(void);
+
 // Refuses a restart while motion is active or queued.
 err_t basic_cmds_may_restart(void);
 

@@ -171,3 +171,21 @@ err_t control_gcode_words(const basic_arg_t *args, size_t count) {
     }
     return gcode_words(words, used);
 }
+
+#define OPTION_ERROR "ERROR"
+enum { ERROR_STOPS, ERROR_LETS_RUN }; // in the order of CONTROL_ERROR_CHOICES
+
+err_t control_option_error(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return basic_set_option(OPTION_ERROR, args[0].integer);
+}
+
+void control_error(void) {
+    if (stepper_active() < 0 || basic_option(OPTION_ERROR, ERROR_STOPS) == ERROR_LETS_RUN) {
+        return;
+    }
+    if (stepper_active() > 0) {
+        basic_notice("Error: motion stops, what was queued is dropped");
+    }
+    stepper_stop();
+}

@@ -26,4 +26,9 @@ enum { JOG_AXIS, JOG_DISTANCE, JOG_FEED, JOG_ARGS };
 #define JOG_CHOICES "+|-"
 enum { JOG_UP, JOG_DOWN };
 
+// OPTION ERROR; and an error has ended a program.
+#define CONTROL_ERROR_CHOICES "STOP|RUN"
+err_t control_option_error(const basic_arg_t *args, size_t count);
+void control_error(void);
+
 #endif
