@@ -1,9 +1,10 @@
-// What every part of the firmware may use: errors, the one-writer one-reader ring, decimal
+// What every part of the firmware may use: errors, checksums, the one-writer one-reader ring, decimal
 // numbers from and to text, formatted text.
 // The face of firmware/base. Context of each part is said in its own header.
 #ifndef BASE_H
 #define BASE_H
 
+#include "base/crc.h"
 #include "base/err.h"
 #include "base/format.h"
 #include "base/num.h"

@@ -1,9 +1,10 @@
-// RUN, NEW, LOAD and SAVE at run time. Context: main loop.
+// RUN, NEW, LOAD, SAVE and VAR at run time. Context: main loop.
 #include "actions.h"
 #include "errors.h"
 #include "files/files.h"
 #include "program.h"
 #include "requests.h"
+#include "saved_variables.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
 
@@ -50,4 +51,20 @@ ACTION_BODY(save) {
     if (files_replace(path, program_text(), program_length()) != ERR_OK) {
         errors_fail_raised();
     }
+}
+
+ACTION_BODY(var_save) {
+    saved_variables_save(arguments, count);
+}
+
+ACTION_BODY(var_restore) {
+    (void)arguments;
+    (void)count;
+    saved_variables_restore();
+}
+
+ACTION_BODY(var_clear) {
+    (void)arguments;
+    (void)count;
+    saved_variables_clear();
 }

@@ -8,14 +8,11 @@
 static struct {
     const char *path;
     int handle;
-    bool is_new;
 } output;
 
 err_t file_output_start(const char *path) {
-    files_entry_t entry;
     output.path = path;
-    output.is_new = files_info(path, &entry) != ERR_OK;
-    return files_open(path, FILES_WRITE, &output.handle);
+    return files_begin_replacement(path, &output.handle);
 }
 
 err_t file_output_write(const void *bytes, size_t size) {
@@ -24,13 +21,10 @@ err_t file_output_write(const void *bytes, size_t size) {
 
 err_t file_output_end(err_t error) {
     if (error == ERR_OK) {
-        return files_close(output.handle);
+        return files_commit_replacement(output.handle, output.path);
     }
     char message[ERR_MESSAGE_SIZE];
     strcpy(message, err_message());
     files_abandon(output.handle);
-    if (output.is_new) {
-        files_remove(output.path);
-    }
     return err_raise(ERR_ARGUMENT, "%s", message);
 }

@@ -15,24 +15,8 @@ typedef struct {
     uint32_t header_crc; // of the fields above
 } header_t;
 
-// CRC-32 as of IEEE 802.3, four bits at a time.
-static uint32_t crc32(uint32_t crc, const void *bytes, size_t size) {
-    static const uint32_t table[16] = {
-        0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
-        0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
-        0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C,
-    };
-    const uint8_t *p = bytes;
-    crc = ~crc;
-    for (size_t i = 0; i < size; i++) {
-        crc = crc >> 4 ^ table[(crc ^ p[i]) & 15];
-        crc = crc >> 4 ^ table[(crc ^ (uint32_t)p[i] >> 4) & 15];
-    }
-    return ~crc;
-}
-
 static uint32_t header_crc(const header_t *header) {
-    return crc32(0, header, offsetof(header_t, header_crc));
+    return crc_add(0, header, offsetof(header_t, header_crc));
 }
 
 // ---- Reading -------------------------------------------------------------------------------------
@@ -50,7 +34,7 @@ static place_state_t read_place(unsigned place, header_t *header) {
     }
     bool good = header->magic == MAGIC && header->header_crc == header_crc(header) &&
                 header->length <= PROGRAM_STORAGE_MAX &&
-                crc32(0, text_at(place), header->length) == header->text_crc;
+                crc_add(0, text_at(place), header->length) == header->text_crc;
     return good ? PLACE_GOOD : PLACE_DAMAGED;
 }
 
@@ -117,7 +101,7 @@ static err_t write_page(program_storage_t *writer) {
     if (!hal_storage_program(place, writer->page)) {
         return failure();
     }
-    writer->crc = crc32(writer->crc, writer->page, writer->used);
+    writer->crc = crc_add(writer->crc, writer->page, writer->used);
     writer->written += writer->used;
     writer->used = 0;
     return ERR_OK;
@@ -156,7 +140,7 @@ static err_t write_header(const program_storage_t *writer) {
 err_t program_storage_commit(program_storage_t *writer) {
     err_t error = writer->used != 0 || writer->written == 0 ? write_page(writer) : ERR_OK;
     const char *text = hal_storage_map(writer->base + HAL_STORAGE_PAGE);
-    if (error == ERR_OK && crc32(0, text, writer->written) != writer->crc) {
+    if (error == ERR_OK && crc_add(0, text, writer->written) != writer->crc) {
         error = err_raise(ERR_STORAGE_FAILED, NULL);
     }
     return error == ERR_OK ? write_header(writer) : error;

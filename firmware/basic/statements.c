@@ -114,6 +114,8 @@ const statements_row_t statements_table[] = {
      "Shows the number of each line as it runs / of the last ones"},
     {"UPDATE", statements_update, "UPDATE FIRMWARE",
      "Starts the boot loader, as CPU RESTART BOOTSEL"},
+    {"VAR", statements_var, "VAR SAVE name|array() [, ...] / VAR RESTORE / VAR CLEAR",
+     "Keeps variables over power-off, brings them back, forgets them"},
     {"WATCHDOG", statements_watchdog, "WATCHDOG milliseconds|OFF",
      "Restarts the board unless it is called again in time"},
     {"WEND", statements_wend, NULL, NULL},

@@ -327,36 +327,63 @@ void files_background(void) {
 
 // ---- Whole files ---------------------------------------------------------------------------------
 
-static err_t write_replacement(const void *bytes, size_t size) {
-    int number;
-    err_t error = files_open(REPLACEMENT, FILES_WRITE, &number);
-    if (error != ERR_OK) {
-        return error;
+// A file can be here, or is: its folder is there and it is not in use.
+static err_t check_place(const files_path_t *place) {
+    files_path_t folder = *place;
+    files_entry_t entry;
+    *strrchr(folder.text, '/') = '\0';
+    err_t error = files_info(folder.text[0] != '\0' ? folder.text : "/", &entry);
+    if (error == ERR_OK && entry.is_folder && files_info(place->text, &entry) == ERR_OK &&
+        entry.is_folder) {
+        error = ERR_IS_A_FOLDER;
     }
-    error = files_write(number, bytes, size);
-    err_t closing = files_close(number);
-    return error != ERR_OK ? error : closing;
+    return error != ERR_OK ? err_raise(error, "%s", place->text) : check_unused(place->text);
 }
 
-err_t files_replace(const char *path, const void *bytes, size_t size) {
+err_t files_begin_replacement(const char *path, int *number) {
+    files_path_t place;
+    err_t error = path_resolve(path, &place);
+    if (error == ERR_OK) {
+        error = check_place(&place);
+    }
+    return error == ERR_OK ? files_open(REPLACEMENT, FILES_WRITE, number) : error;
+}
+
+static err_t rename_replacement(const char *path) {
     files_path_t place;
     err_t error = path_resolve(path, &place);
     if (error == ERR_OK) {
         error = check_unused(place.text);
     }
-    if (error == ERR_OK) {
-        error = write_replacement(bytes, size);
+    if (error != ERR_OK) {
+        return error;
     }
-    if (error == ERR_OK) {
-        volume_call_t call = {.path = REPLACEMENT, .to = place.text};
-        error = volume_write(do_rename, &call, NULL);
+    volume_call_t call = {.path = REPLACEMENT, .to = place.text};
+    error = volume_write(do_rename, &call, NULL);
+    return error != ERR_OK ? err_raise(error, "%s", place.text) : ERR_OK;
+}
+
+err_t files_commit_replacement(int number, const char *path) {
+    if (!hal_storage_is_writable()) { // closing it would only put it off
+        files_abandon(number);
+        return err_raise(ERR_STORAGE_BUSY, NULL);
     }
-    if (error != ERR_OK && hal_storage_is_writable()) {
-        volume_call_t call = {.path = REPLACEMENT};
-        volume_write(do_remove, &call, NULL);
-        err_raise(error, "%s", place.text);
+    err_t error = close_now(&files.handles[number]);
+    return error == ERR_OK ? rename_replacement(path) : error;
+}
+
+err_t files_replace(const char *path, const void *bytes, size_t size) {
+    int number;
+    err_t error = files_begin_replacement(path, &number);
+    if (error != ERR_OK) {
+        return error;
     }
-    return error;
+    error = files_write(number, bytes, size);
+    if (error != ERR_OK) {
+        files_abandon(number);
+        return error;
+    }
+    return files_commit_replacement(number, path);
 }
 
 err_t files_remove(const char *path) {

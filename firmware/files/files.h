@@ -68,6 +68,11 @@ uint32_t files_position(int handle);
 // content, and no new file without its content.
 err_t files_replace(const char *path, const void *bytes, size_t size);
 
+// The same in steps: a content on its way, to be written as any file, one at a time; then it becomes that of
+// the file, or files_abandon() gives it up. The handle is free whatever comes of the commit.
+err_t files_begin_replacement(const char *path, int *handle);
+err_t files_commit_replacement(int handle, const char *path);
+
 // ---- Names and folders ---------------------------------------------------------------------------
 
 typedef struct {

@@ -56,7 +56,7 @@ const char *hal_firmware_version(void);
 // All memory that is left over, 8-aligned, for whoever takes it at start-up.
 void *hal_memory(size_t *size);
 
-// True if this start is due to a fault: the firmware crashed or hung. (Host: never.)
+// True if this start is due to a fault of the firmware: it crashed or hung. (Host: never.)
 bool hal_restarted_by_fault(void);
 
 // ---- Time ----------------------------------------------------------------------------------------

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
+from tempfile import TemporaryFile
 
 import pytest
-from test_prompt import CTRL_C, answers, session
+from test_prompt import CTRL_C, PROGRAM, answers, session
 from test_stored_programs import BUSY, MOVING, shown, stored
 
 
@@ -48,14 +50,13 @@ def test_a_break_key_of_ones_own(tmp_path: Path) -> None:
 
 
 def start(typed: str, *options: str) -> str:
-    """What the terminal shows in all."""
-    import subprocess
-
-    from test_prompt import PROGRAM
-
-    done = subprocess.run(
-        [PROGRAM, "--virtual", *options], input=typed.encode(), capture_output=True, timeout=20
-    )
+    """What the terminal shows in all; typed before the board is on, as a file is."""
+    with TemporaryFile() as keys:
+        keys.write(typed.encode())
+        keys.seek(0)
+        done = subprocess.run(
+            [PROGRAM, "--virtual", *options], stdin=keys, capture_output=True, timeout=20
+        )
     assert done.returncode == 0
     return done.stdout.decode().split("commands\r\n\r\n", 1)[1]
 
@@ -76,7 +77,7 @@ def test_ctrl_c_first_keeps_the_program_from_starting(tmp_path: Path) -> None:
     session(stored("DO:LOOP") + "OPTION AUTORUN ON\rOPTION BREAK 0\r", *flash)
     skipped = "MM.STARTUP and AUTORUN are skipped\r\n> PRINT 5\r\n 5\r\n> "
     assert start(f"{CTRL_C}PRINT 5\r", *flash).endswith(skipped)
-    session(f"{CTRL_C}OPTION BREAK 3\r", *flash)
+    start(f"{CTRL_C}OPTION BREAK 3\r", *flash)
     assert start(f"{CTRL_C}PRINT 5\r", *flash) == skipped
 
 

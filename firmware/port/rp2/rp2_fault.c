@@ -17,6 +17,7 @@
 
 static char report[80];
 static bool by_watchdog;
+static bool by_fault;
 
 void rp2_fault_init(void) {
     uint32_t reason = watchdog_hw->scratch[0];
@@ -35,12 +36,13 @@ void rp2_fault_init(void) {
         format_text(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
                     RP2_FAULT_WATCHDOG_MS / 1000);
     }
+    by_fault = report[0] != '\0' && reason != REASON_WATCHDOG;
     watchdog_hw->scratch[0] = 0;
     watchdog_enable(RP2_FAULT_WATCHDOG_MS, true);
 }
 
 bool hal_restarted_by_fault(void) {
-    return report[0] != '\0';
+    return by_fault;
 }
 
 const char *rp2_fault_report(void) {
