@@ -199,6 +199,10 @@ class Emulator:
         """Connect a pin to 0 or 1, or let go of it (None), now or at a time."""
         self.request("set_pin", gpio=gpio, level=level, at_ns=at_ns)
 
+    def set_analog(self, channel: int, reading: int) -> None:
+        """Set what the converter reads until the next restart: channel 0 is GP26, 4 the sensor."""
+        self.request("set_analog", channel=channel, reading=reading)
+
     def level(self, gpio: int) -> int:
         """Return the level of a pin now."""
         return int(self.request("level", gpio=gpio)["level"])

@@ -42,6 +42,7 @@ const operations = {
         if (at === null) board.setPin(gpio, level);
         else board.setPinAt(at, gpio, level);
     },
+    set_analog({ channel, reading }) { board.chip.mcu.adc.channelValues[channel] = reading; },
     level({ gpio }) { return { level: board.level(gpio) }; },
     inputs({ file }) {
         for (const event of readEvents(file)) board.setPinAt(event.timeNanos, event.gpio, event.level);
