@@ -13,7 +13,6 @@
 #include "program.h"
 #include "requests.h"
 #include "program_storage.h"
-#include "source_lines.h"
 #include "vm.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
@@ -79,9 +78,6 @@ ACTION_BODY(option) {
         break;
     case ACTIONS_OPTION_ANGLE:
         vm.degrees = value != 0;
-        break;
-    case ACTIONS_OPTION_CONTINUATION:
-        source_lines_join(value != 0);
         break;
     default:
         if (value != 0 && value != 1) {

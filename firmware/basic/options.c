@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "files/files.h"
+#include "source_lines.h"
 
 #define OPTIONS_FILE "/.options"
 #define TEXT_SIZE 256
@@ -19,6 +20,7 @@ static const struct {
     [OPTIONS_AUTORUN] = {"AUTORUN", 0, 0, 1},
     [OPTIONS_BREAK] = {"BREAK", 3, 0, 255},
     [OPTIONS_COLOUR] = {"COLOURCODE", 0, 0, 1},
+    [OPTIONS_CONTINUATION] = {"CONTINUATION LINES", 0, 0, 1},
     [OPTIONS_DISPLAY] = {"DISPLAY", OPTIONS_DISPLAY_VALUE(24, 80), OPTIONS_DISPLAY_VALUE(2, 20),
                          OPTIONS_DISPLAY_VALUE(255, 255)},
     [OPTIONS_TAB] = {"TAB", 2, 2, 8},
@@ -126,6 +128,7 @@ err_t basic_set_option(const char *name, int64_t value) {
 static void apply(void) {
     int64_t display = options_get(OPTIONS_DISPLAY);
     console_set_size((unsigned)display / 256, (unsigned)display % 256);
+    source_lines_join(options_get(OPTIONS_CONTINUATION) != 0);
     console_set_break_key((int)options_get(OPTIONS_BREAK));
 }
 

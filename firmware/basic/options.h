@@ -7,11 +7,12 @@
 
 // The language's own; rows of a table in options.c.
 typedef enum {
-    OPTIONS_AUTORUN, // 1: the program is run at power-up
-    OPTIONS_BREAK,   // code of the key that ends a program; 0: none does
-    OPTIONS_COLOUR,  // 1: EDIT shows colours
-    OPTIONS_DISPLAY, // lines * 256 + columns of the terminal
-    OPTIONS_TAB,     // columns between the stops of the Tab key
+    OPTIONS_AUTORUN,      // 1: the program is run at power-up
+    OPTIONS_BREAK,        // code of the key that ends a program; 0: none does
+    OPTIONS_COLOUR,       // 1: EDIT shows colours
+    OPTIONS_CONTINUATION, // 1: an underscore at the end of a line joins it with the next
+    OPTIONS_DISPLAY,      // lines * 256 + columns of the terminal
+    OPTIONS_TAB,          // columns between the stops of the Tab key
     OPTIONS_COUNT
 } options_t;
 

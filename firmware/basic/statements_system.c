@@ -6,6 +6,7 @@
 #include "expressions.h"
 #include "lexer.h"
 #include "names.h"
+#include "options.h"
 #include "statements.h"
 #include "words.h"
 
@@ -140,8 +141,10 @@ static bool compile_text_option(void) {
     if (lexer_take_word("CONTINUATION")) { // in a program source_lines.c has obeyed already
         lexer_expect_word("LINES");
         bool on = take_switch();
-        if (compiler_at_prompt()) {
-            emit_option(ACTIONS_OPTION_CONTINUATION, on);
+        if (compiler_at_prompt()) { // for programs that do not say it
+            emit_integer(OPTIONS_CONTINUATION);
+            emit_integer(on);
+            emit_action(ACTIONS_OPTION_KEEP, 2);
         }
         return true;
     }
