@@ -31,9 +31,8 @@ ACTION_BODY(end) {
 }
 
 ACTION_BODY(autosave) {
-    (void)arguments;
     (void)count;
-    actions_stop_with(VM_REQUEST_AUTOSAVE);
+    actions_stop_with(value_is_true(arguments) ? VM_REQUEST_APPEND : VM_REQUEST_AUTOSAVE);
 }
 
 ACTION_BODY(edit) {
@@ -133,16 +132,22 @@ ACTION_BODY(help) {
 }
 
 ACTION_BODY(list) {
-    (void)count;
+    int64_t first = count > 1 ? arguments[1].integer : 1;
+    int64_t last = count > 1 ? arguments[2].integer : INT64_MAX;
     const char *text = program_text();
     const char *end = text + program_length();
     pager_start(value_is_true(arguments));
-    while (text < end) {
+    for (int64_t line = 1; text < end && line <= last; line++) {
         const char *stop = memchr(text, '\n', (size_t)(end - text));
         stop = stop != NULL ? stop : end;
-        if (!pager_line(text, (size_t)(stop - text))) {
+        if (line >= first && !pager_line(text, (size_t)(stop - text))) {
             return;
         }
         text = stop + 1;
     }
+}
+
+ACTION_BODY(list_words) {
+    (void)count;
+    help_print_words(value_is_true(arguments));
 }

@@ -16,17 +16,51 @@ static struct {
     char *text;
     size_t length;
     size_t size;
-    err_t error; // met on the way; the rest of the paste is still taken in
+    bool has_all; // the old program's code and variables have given way
+    err_t error;  // met on the way; the rest of the paste is still taken in
 } incoming;
 
-static void append(const char *line, size_t length) {
-    if (incoming.length + length + 1 > incoming.size) {
-        incoming.error = ERR_NO_MEMORY;
-        return;
+static void measure(void) {
+    incoming.text = (char *)memory.heap;
+    incoming.size = memory_free() > RESERVE ? memory_free() - RESERVE : 0;
+}
+
+// What has come so far moves down to where the old program's code was.
+static void take_all_memory(void) {
+    const char *text = incoming.text;
+    program_release();
+    measure();
+    memmove(incoming.text, text, incoming.length);
+    incoming.has_all = true;
+}
+
+static bool make_room(size_t size) {
+    if (incoming.length + size > incoming.size && !incoming.has_all) {
+        take_all_memory();
     }
-    memcpy(incoming.text + incoming.length, line, length);
-    incoming.length += length;
-    incoming.text[incoming.length++] = '\n';
+    if (incoming.length + size > incoming.size) {
+        incoming.error = ERR_NO_MEMORY;
+    }
+    return incoming.error == ERR_OK;
+}
+
+static void append(const char *line, size_t length) {
+    if (make_room(length + 1)) {
+        memcpy(incoming.text + incoming.length, line, length);
+        incoming.length += length;
+        incoming.text[incoming.length++] = '\n';
+    }
+}
+
+static void begin_with_program(void) {
+    size_t length = program_length();
+    if (length != 0 && make_room(length + 1)) {
+        memcpy(incoming.text, program_text(), length);
+        incoming.length = length;
+        if (incoming.text[length - 1] != '\n') {
+            incoming.text[incoming.length++] = '\n';
+        }
+    }
 }
 
 // True when the text is complete, false when it was given up.
@@ -61,11 +95,14 @@ static bool read_lines(bool *start) {
     }
 }
 
-err_t autosave_read(bool *start) {
-    incoming.text = (char *)memory.heap;
+err_t autosave_read(bool behind, bool *start) {
     incoming.length = 0;
-    incoming.size = memory_free() > RESERVE ? memory_free() - RESERVE : 0;
+    incoming.has_all = false;
     incoming.error = ERR_OK;
+    measure();
+    if (behind) {
+        begin_with_program();
+    }
     if (!hal_storage_is_writable()) {
         incoming.error = ERR_STORAGE_BUSY;
         console_print("Motion is under way: text up to Ctrl-Z or Ctrl-C is dropped");
@@ -76,7 +113,7 @@ err_t autosave_read(bool *start) {
         return ERR_OK;
     }
     if (incoming.error != ERR_OK) {
-        return err_raise(incoming.error, "%s", "");
+        return err_raise(incoming.error, NULL);
     }
     return program_set_text(incoming.text, incoming.length);
 }

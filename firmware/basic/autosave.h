@@ -7,9 +7,9 @@
 #include "base/base.h"
 
 // Takes lines up to Ctrl-Z or F1, makes them the program and keeps them in flash. Ctrl-C leaves the
-// old program as it was. *start becomes true if it is to run. Errors: too long, motion runs.
-// What is pasted behind a refused AUTOSAVE is a program, not a list of commands for a machine in motion:
-// it is taken in all the same and dropped.
-err_t autosave_read(bool *start);
+// old program as it was. *start becomes true if it is to run. `behind`: behind what the program
+// has. Errors: too long, motion runs. What is pasted behind a refused AUTOSAVE is a program, not a
+// list of commands for a machine in motion: it is taken in all the same and dropped.
+err_t autosave_read(bool behind, bool *start);
 
 #endif

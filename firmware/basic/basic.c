@@ -288,9 +288,10 @@ static void serve(vm_request_t request) {
     case VM_REQUEST_RECEIVE:
         end_if_new(transfer_receive_program());
         break;
-    case VM_REQUEST_AUTOSAVE: {
+    case VM_REQUEST_AUTOSAVE:
+    case VM_REQUEST_APPEND: {
         bool start = false;
-        err_t error = autosave_read(&start);
+        err_t error = autosave_read(request == VM_REQUEST_APPEND, &start);
         report(error);
         if (start && error == ERR_OK) {
             run_program();

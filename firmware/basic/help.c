@@ -31,22 +31,25 @@ static void print_word(const char *word) {
     console_print(word);
 }
 
-static void print_overview(void) {
-    print_line("Commands of the machine:");
+static void print_command_names(void) {
     for (size_t i = 0; i < config->command_count; i++) {
         if (i == 0 || strcmp(config->commands[i].name, config->commands[i - 1].name) != 0) {
             print_word(config->commands[i].name);
         }
     }
     console_fresh_line();
-    print_line("Statements:");
+}
+
+static void print_statement_names(void) {
     for (size_t i = 0; i < statements_count; i++) {
         if (statements_table[i].usage != NULL) {
             print_word(statements_table[i].name);
         }
     }
     console_fresh_line();
-    print_line("Functions:");
+}
+
+static void print_function_names(void) {
     for (size_t i = 0; i < config->function_count; i++) {
         if (i == 0 || strcmp(config->functions[i].name, config->functions[i - 1].name) != 0) {
             print_word(config->functions[i].name);
@@ -58,7 +61,25 @@ static void print_overview(void) {
         }
     }
     console_fresh_line();
+}
+
+static void print_overview(void) {
+    print_line("Commands of the machine:");
+    print_command_names();
+    print_line("Statements:");
+    print_statement_names();
+    print_line("Functions:");
+    print_function_names();
     print_line("HELP name tells more, for instance HELP PRINT.");
+}
+
+void help_print_words(bool commands) {
+    if (commands) {
+        print_command_names();
+        print_statement_names();
+    } else {
+        print_function_names();
+    }
 }
 
 static bool is_optional(const basic_arg_spec_t *spec) {

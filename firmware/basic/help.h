@@ -2,11 +2,15 @@
 #ifndef BASIC_HELP_H
 #define BASIC_HELP_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "basic/basic.h"
 
 void help_start(const basic_config_t *config);
+
+// The names of all commands and statements, or of all functions.
+void help_print_words(bool commands);
 
 // Prints the list of commands for an empty topic, otherwise what there is about it.
 void help_print(const char *topic, size_t length);

@@ -15,8 +15,8 @@
 #include "words.h"
 
 const statements_row_t statements_table[] = {
-    {"AUTOSAVE", statements_autosave, "AUTOSAVE",
-     "Takes a program pasted or typed, up to Ctrl-Z or F1"},
+    {"AUTOSAVE", statements_autosave, "AUTOSAVE [APPEND]",
+     "Takes a program pasted or typed, up to Ctrl-Z or F1, F2 to run it; Ctrl-C gives up"},
     {"CALL", statements_call, "CALL name$ [, argument ...]", "Calls the SUB of that name"},
     {"CASE", statements_case, NULL, NULL},
     {"CHDIR", statements_chdir, "CHDIR folder$", "Goes to a folder; \"..\": the one above"},
@@ -58,8 +58,8 @@ const statements_row_t statements_table[] = {
     {"LET", statements_let, "[LET] name = value", "Assigns"},
     {"LINE", statements_line, "LINE INPUT [prompt$,] name$ / LINE INPUT #n, name$",
      "Reads a line from the terminal or a channel"},
-    {"LIST", statements_list, "LIST [ALL] [file$]",
-     "Shows the program or a file, with ALL without a stop"},
+    {"LIST", statements_list, "LIST [ALL] [first[-last] | file$] / LIST COMMANDS|FUNCTIONS",
+     "Shows the program, some of its lines or a file, with ALL without a stop; or all words"},
     {"LOAD", statements_load, "LOAD file$ [, R]",
      "Makes what a file holds the program; R: runs it"},
     {"LOCAL", statements_local, "LOCAL [type] name ...", "As DIM, for this SUB or FUNCTION only"},

@@ -56,7 +56,8 @@ static void at_prompt_only(void) {
 
 void statements_autosave(void) {
     at_prompt_only();
-    emit_action(ACTIONS_AUTOSAVE, 0);
+    emit_integer(lexer_take_word("APPEND"));
+    emit_action(ACTIONS_AUTOSAVE, 1);
 }
 
 void statements_edit(void) {
@@ -64,11 +65,38 @@ void statements_edit(void) {
     compile_optional(ACTIONS_EDIT);
 }
 
+static int64_t take_line_number(int64_t fallback) {
+    const lexer_token_t *token = lexer_now();
+    if (token->kind != LEXER_NUMBER || token->value.type != VALUE_INTEGER) {
+        return fallback;
+    }
+    int64_t number = token->value.integer;
+    lexer_next();
+    return number;
+}
+
+// LIST 10-20, LIST 10-, LIST -20, LIST 10
+static void compile_list_lines(bool all) {
+    int64_t first = take_line_number(1);
+    bool range = lexer_take('-');
+    int64_t last = range ? take_line_number(INT64_MAX) : first;
+    emit_integer(all);
+    emit_integer(first);
+    emit_integer(last);
+    emit_action(ACTIONS_LIST, 3);
+}
+
 void statements_list(void) {
     bool all = lexer_take_word("ALL");
-    if (lexer_at_end()) {
+    bool commands = lexer_take_word("COMMANDS");
+    if (commands || lexer_take_word("FUNCTIONS")) {
+        emit_integer(commands);
+        emit_action(ACTIONS_LIST_WORDS, 1);
+    } else if (lexer_at_end()) {
         emit_integer(all);
         emit_action(ACTIONS_LIST, 1);
+    } else if (lexer_now()->kind == LEXER_NUMBER || lexer_is('-')) {
+        compile_list_lines(all);
     } else {
         expressions_compile();
         emit_integer(all);

@@ -379,3 +379,13 @@ def test_a_long_line_of_the_history_gives_way_to_a_short_one():
     shown = screen(session(f"{second}\r{first}\r{UP}{UP}\r"))
     assert shown[-2:] == ["> " + second, ">"]
     assert len(shown) == 1 + 3 + 1 + 1
+
+
+def test_list_takes_lines_and_words():
+    program = "".join(f"a={n}\n" for n in range(1, 31))
+    shown = session(enter(program) + "LIST 3-5\rLIST 29-\rLIST -2\rLIST 7\rLIST ALL 20-21\r")
+    listed = [line for line in shown.split("\r\n")[32:] if line.startswith("a=")]
+    assert listed == [f"a={n}" for n in [3, 4, 5, 29, 30, 1, 2, 7, 20, 21]]
+    assert "PRINT" in session("LIST COMMANDS\r")
+    assert "MID$" in session("LIST FUNCTIONS\r")
+    assert "MID$" not in session("LIST COMMANDS\r")

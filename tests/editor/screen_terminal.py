@@ -12,6 +12,7 @@ import pyte
 
 PROGRAM = os.environ.get("STEPMITE", str(Path(__file__).parents[2] / "build/host/stepmite"))
 TIMEOUT_S = 5
+SCREENFUL = 100_000  # what came before has scrolled away
 DRAWN = b"\x1b[?25h"  # the editor ends each drawing by showing the cursor
 
 
@@ -45,10 +46,22 @@ class ScreenTerminal:
     def type(self, text: str | bytes, end: bytes | tuple[bytes, ...] = b"\r\n> ") -> bytes:
         """Type, wait for what ends the answer; the answer."""
         data = text.encode() if isinstance(text, str) else text
-        while data:
-            count = os.write(self.master, data[:2000])
-            data = data[count:]
-        return self.until(end)
+        seen = b""
+        while data:  # a terminal reads while it sends
+            readable, writable, _ = select.select([self.master], [self.master], [], TIMEOUT_S)
+            assert readable or writable, "the program takes nothing"
+            if readable:
+                seen += os.read(self.master, 65536)
+            if writable:
+                data = data[os.write(self.master, data[:1000]) :]
+        self.stream.feed(seen[-SCREENFUL:])
+        return (
+            seen if end and seen.endswith(end) and not self.has_more() else seen + self.until(end)
+        )
+
+    def has_more(self) -> bool:
+        """Tell whether the program says something within a moment."""
+        return bool(select.select([self.master], [], [], 0.05)[0])
 
     def key(self, key: str | bytes) -> bytes:
         """Press a key of the editor; the drawing."""
