@@ -293,6 +293,7 @@ static void serve(vm_request_t request) {
         bool start = false;
         err_t error = autosave_read(request == VM_REQUEST_APPEND, &start);
         report(error);
+        report(program_compile_stored());
         if (start && error == ERR_OK) {
             run_program();
         }

@@ -1,4 +1,4 @@
-"""Pastes as fast as the host takes them, at the prompt and into AUTOSAVE; line ends of all terminals."""
+"""Pastes as fast as the host takes them, at the prompt and into AUTOSAVE; all line ends."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def terminal() -> Iterator[ScreenTerminal]:
 
 @pytest.mark.parametrize("end", ENDS)
 def test_ten_thousand_lines_at_the_prompt_are_all_carried_out(terminal, end) -> None:
-    """PuTTY and TeraTerm send CR, screen and a shell LF, VS Code's serial monitor what it is told."""
+    """PuTTY and TeraTerm send CR, a file LF, VS Code's serial monitor what it is told."""
     terminal.type("n% = 0 : s% = 0\r")
     pasted = "".join(f"n%=n%+1:s%=s%+{k}*n%{end}" for k in range(LINES))
     terminal.type(pasted + f"PRINT n%; s%; 42{end}", b" 42\r\n> ")
@@ -46,12 +46,12 @@ def test_a_paste_larger_than_the_memory_leaves_the_old_program(terminal) -> None
 
 
 def test_autosave_takes_the_memory_of_the_old_program_and_gives_it_back(terminal) -> None:
-    terminal.enter_program("DIM a(8000)\nPRINT 2\n")
+    terminal.enter_program("DIM a(8000)\nSUB five\nPRINT 5\nEND SUB\n")
     terminal.type("RUN\r")
     text = "' a line to fill the memory with\n" * 1200
     terminal.type("AUTOSAVE\r", b"\r\n")
     terminal.type(text.replace("\n", "\r") + "\x03")
-    assert b"\r\n 2\r\n" in terminal.type("RUN\r")
+    assert b"\r\n 5\r\n" in terminal.type("five\r")
     terminal.enter_program(text)
     assert terminal.listing() == text
 
