@@ -282,9 +282,10 @@ static bool is_out_of_patience(void) {
     return hal_time_us() - peer.since_us > patience_us || peer.polls > PATIENCE_POLLS;
 }
 
+// A program may leave the cursor behind a control character, which takes no place on the screen.
 static bool is_at_prompt(void) {
-    return peer.output_length > 0 && peer.quiet > QUIET_POLLS &&
-           (memcmp(peer.tail, "\r\n> ", 4) == 0 || memcmp(peer.tail + 1, "\r> ", 3) == 0);
+    return peer.output_length > 0 && peer.quiet > QUIET_POLLS && (uint8_t)peer.tail[1] < ' ' &&
+           memcmp(peer.tail + 2, "> ", 2) == 0;
 }
 
 static void drain(void) {
