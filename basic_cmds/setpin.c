@@ -64,6 +64,17 @@ const basic_arg_spec_t setpin_pwm_args[] = {
         "output for PWM and SERVO: that of this slice, or whichever the pin has"),
 };
 
+// The words in the order of BASIC_PIN_NUMBERS_GPIO and its companions.
+const basic_arg_spec_t setpin_numbers_args[] = {
+    {"rule", BASIC_ARG_CHOICE, .choices = "GPIO|BOARD|MIXED",
+     .help =
+         "GPIO numbers, or numbers on the board; MIXED: GPIO in STEPPER, BOARD in SETPIN and PIN"},
+};
+const basic_arg_spec_t setpin_vcc_args[] = {
+    {"volts", BASIC_ARG_NUMBER, .min = 1.8, .max = 3.6, .unit = "V",
+     .help = "voltage that an analog input reads as full scale; RUN sets 3.3"},
+};
+
 // ---- Interrupts ----------------------------------------------------------------------------------
 
 #define INTERRUPTS 10
@@ -190,4 +201,15 @@ err_t setpin_pwm(const basic_arg_t *args, size_t count) {
     int64_t word = args[1].integer;
     return with_new_use(args,
                         io_set_pwm(gpio_of(args), word == 0 ? IO_PWM_ANY : (unsigned)word - 1));
+}
+
+err_t setpin_numbers(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return basic_set_option(BASIC_PIN_NUMBERS, args[0].integer);
+}
+
+err_t setpin_vcc(const basic_arg_t *args, size_t count) {
+    (void)count;
+    io_set_reference(args[0].number);
+    return ERR_OK;
 }

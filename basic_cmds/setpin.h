@@ -15,6 +15,9 @@ extern const basic_arg_spec_t setpin_counter_args[3];
 extern const basic_arg_spec_t setpin_interrupt_args[4];
 extern const basic_arg_spec_t setpin_pwm_args[2];
 
+extern const basic_arg_spec_t setpin_numbers_args[1];
+extern const basic_arg_spec_t setpin_vcc_args[1];
+
 err_t setpin_off(const basic_arg_t *args, size_t count);
 err_t setpin_input(const basic_arg_t *args, size_t count);
 err_t setpin_output(const basic_arg_t *args, size_t count);
@@ -24,6 +27,10 @@ err_t setpin_period(const basic_arg_t *args, size_t count);
 err_t setpin_counter(const basic_arg_t *args, size_t count);
 err_t setpin_interrupt(const basic_arg_t *args, size_t count);
 err_t setpin_pwm(const basic_arg_t *args, size_t count);
+
+// OPTION PIN NUMBERS and OPTION VCC.
+err_t setpin_numbers(const basic_arg_t *args, size_t count);
+err_t setpin_vcc(const basic_arg_t *args, size_t count);
 
 // For the background hook: raises the events of pins that changed.
 void setpin_background(void);

@@ -133,20 +133,15 @@ static int64_t pin_of_text(const value_t *value) {
     return gpio;
 }
 
-static basic_pin_numbers_t pin_numbers;
-
-void basic_set_pin_numbers(basic_pin_numbers_t numbers) {
-    pin_numbers = numbers;
-}
-
 static int64_t pin_of_number(const basic_arg_spec_t *spec, const value_t *value) {
     double number = value_to_number(value);
     if (!(number >= -0.5 && number < 255)) {
         return -1;
     }
     int64_t whole = value_round(number);
-    bool board = pin_numbers == BASIC_PIN_NUMBERS_BY_ROW ? spec->flags & BASIC_ARG_BOARD_NUMBER
-                                                         : pin_numbers == BASIC_PIN_NUMBERS_BOARD;
+    int64_t rule = basic_option(BASIC_PIN_NUMBERS, BASIC_PIN_NUMBERS_BY_ROW);
+    bool board = rule == BASIC_PIN_NUMBERS_BOARD ||
+                 (rule != BASIC_PIN_NUMBERS_GPIO && (spec->flags & BASIC_ARG_BOARD_NUMBER) != 0);
     return board ? pins_from_board_number((unsigned)whole) : whole;
 }
 

@@ -39,7 +39,7 @@ typedef enum {
     // expression; a number where the words are numbers      -> integer (its index), text
     BASIC_ARG_WORD, // a bare word, or a string expression                   -> text
     BASIC_ARG_PIN,  // GPn, "GPn", or a number: a GPIO number, or the board's with
-    // BASIC_ARG_BOARD_NUMBER; see basic_set_pin_numbers(). With
+    // BASIC_ARG_BOARD_NUMBER; see BASIC_PIN_NUMBERS. With
     // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
     BASIC_ARG_ROUTINE, // the name of a SUB without parameters, bare or a string expression; a literal 0
     // or blank means none                                                  -> integer
@@ -194,14 +194,6 @@ void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)))
 // done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-// What a bare number stands for where a pin is wanted: what the row says, or one rule for all rows.
-typedef enum {
-    BASIC_PIN_NUMBERS_BY_ROW,
-    BASIC_PIN_NUMBERS_GPIO,
-    BASIC_PIN_NUMBERS_BOARD
-} basic_pin_numbers_t;
-void basic_set_pin_numbers(basic_pin_numbers_t numbers);
-
 // Writes `value` as PRINT does, without the leading blank. Returns `buffer`.
 char *basic_format_number(char *buffer, size_t size, double value);
 
@@ -211,6 +203,11 @@ int64_t basic_option(const char *name, int64_t fallback);
 
 // Errors: motion is under way, no room; the setting is as it was.
 err_t basic_set_option(const char *name, int64_t value);
+
+// A setting of the product with a meaning here: what a bare number stands for where a pin is wanted. One rule
+// for all rows, or (if it was not set) what each row says.
+#define BASIC_PIN_NUMBERS "PIN NUMBERS"
+enum { BASIC_PIN_NUMBERS_GPIO, BASIC_PIN_NUMBERS_BOARD, BASIC_PIN_NUMBERS_BY_ROW };
 
 // True if the user pressed Ctrl-C and the statement should end; a handler that waits must ask.
 bool basic_break_pending(void);

@@ -175,11 +175,26 @@ SETPIN GP9, CIN, 3
 SETPIN GP10, FIN '! No counter left for GP10 (pin 14) (at most 4 pins with FIN, PIN or CIN)
 '--- an interrupt needs its SUB
 SETPIN GP8, INTH, nowhere '! Unknown user subroutine
-'--- RUN puts pins back
-SETPIN GP2, DOUT
-PIN(GP2) = 1
-done = done + 1
-PRINT PIN(GP2) '> 1
-'--- a pin that was high before is low now
-SETPIN GP2, DIN
+'--- OPTION PIN NUMBERS
+SETPIN 4, DOUT
 PRINT PIN(GP2) '> 0
+OPTION PIN NUMBERS GPIO
+SETPIN 4, DOUT
+PIN(4) = 1
+PRINT PIN(GP2); PIN(GP4) '> 0 1
+STEPPER INIT '>Stepper initialized, buffer 32
+OPTION PIN NUMBERS BOARD
+ON ERROR SKIP
+STEPPER AXIS X, 6, 7
+PRINT MM.ERRMSG$ '>Pin GP4 (pin 6) is in use by SETPIN DOUT
+OPTION PIN NUMBERS MIXED
+SETPIN 7, DOUT
+PRINT PIN(GP5) '> 0
+STEPPER AXIS X, 6, 7
+'--- an unknown rule for pin numbers
+OPTION PIN NUMBERS SOME '! rule: SOME is invalid (valid is GPIO, BOARD, MIXED)
+'--- OPTION VCC
+SETPIN GP26, AIN
+OPTION VCC 1.8
+PRINT PIN(GP26) <= 1.8 '> 1
+OPTION VCC 5 '! volts: 5 is invalid (valid is 1.8 to 3.6)

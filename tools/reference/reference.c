@@ -117,8 +117,11 @@ int main(void) {
            "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
            "brackets may be\n"
            "left out, in the middle by leaving the place between two commas blank. A pin is `GP2`, "
-           "`\"GP2\"` or a GPIO\n"
-           "number; where a pin may be left out, 0 means none. The [user guide](user-guide.md) "
+           "`\"GP2\"` or a\n"
+           "number: a GPIO number in STEPPER, the number beside the board's pin in SETPIN and PIN "
+           "(`OPTION PIN NUMBERS`\n"
+           "makes it one rule). Where a pin may be left out, 0 means none. The [user "
+           "guide](user-guide.md) "
            "shows how the commands\n"
            "work together.\n\n");
     for (size_t i = 0; i < basic_cmds_command_count; i++) {

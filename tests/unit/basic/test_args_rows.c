@@ -94,7 +94,6 @@ void setUp(void) {
     board_reset();
     board_assignments(assignments, COUNT_OF_ARRAY(assignments));
     board_start(commands, COUNT_OF_ARRAY(commands), functions, COUNT_OF_ARRAY(functions));
-    basic_set_pin_numbers(BASIC_PIN_NUMBERS_BY_ROW);
     seen[0] = '\0';
 }
 void tearDown(void) {}
@@ -179,10 +178,10 @@ static void test_bare_pin_numbers(void) {
     reject("SET -1, OFF", "Invalid pin -1 for pin");
     reject("SET 1e30, OFF", "Invalid pin 1e+30 for pin");
     reject("SET GP23, OFF", "Invalid pin GP23 for pin");
-    basic_set_pin_numbers(BASIC_PIN_NUMBERS_GPIO);
+    TEST_ASSERT_EQUAL(ERR_OK, basic_set_option(BASIC_PIN_NUMBERS, BASIC_PIN_NUMBERS_GPIO));
     accept("SET 4, OFF", "off 4 0");
     accept("STEP 4", "drive 4");
-    basic_set_pin_numbers(BASIC_PIN_NUMBERS_BOARD);
+    TEST_ASSERT_EQUAL(ERR_OK, basic_set_option(BASIC_PIN_NUMBERS, BASIC_PIN_NUMBERS_BOARD));
     accept("SET 4, OFF", "off 2 0");
     accept("STEP 4", "drive 2");
     accept("STEP GP4", "drive 4");
