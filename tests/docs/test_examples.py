@@ -20,6 +20,7 @@ STEPMITE = ROOT / "build/host/stepmite"
 PC_TOOLS = ROOT / ".venv/bin/stepmite"
 PAGES = ["README.md", "docs/user-guide.md", "docs/pc-tools.md", "docs/testing.md"]
 CTRL_Z = "\x1a"
+PROGRAMS = ("Programs", "Larger programs")  # headings of blocks that are typed as one program
 WAIT = "DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) = 0"
 
 
@@ -60,7 +61,7 @@ def script(page: str) -> list[Typed]:
     """Return what a page says to type, in order."""
     typed: list[Typed] = []
     for block in blocks(page):
-        if block.language == "basic" and block.heading == "Programs":
+        if block.language == "basic" and block.heading in PROGRAMS:
             typed.append(Typed(WAIT))
             typed.append(Typed("AUTOSAVE\n" + "\n".join(block.lines) + "\n" + CTRL_Z))
             typed += [Typed("RUN"), Typed("RUN")]
