@@ -7,6 +7,7 @@
 #include "errors.h"
 #include "functions.h"
 #include "hal/hal.h"
+#include "keys.h"
 #include "program.h"
 #include "variables.h"
 #include "vm.h"
@@ -30,13 +31,16 @@ FUNCTION(timer) {
     value_set_number(result, now_ms() + timer_offset_ms);
 }
 
+// Keys that have no character have the codes that MMBasic gives them: 128 is up, 145 F1, 177 Shift-F1.
 FUNCTION(inkey) {
     (void)arguments;
     (void)count;
-    int byte = console_take();
+    int code = keys_take();
+    bool function_key = (code & 0xFFF) >= KEYS_F1 && (code & 0xFFF) <= KEYS_F12;
+    bool none = (code & 0xFFF) >= KEYS_PASTE_BEGIN;
     char *key = memory_text(1);
-    *key = (char)byte;
-    value_set_text(result, key, byte < 0 ? 0 : 1);
+    *key = (char)(code | (function_key && code & KEYS_SHIFT ? 0x20 : 0));
+    value_set_text(result, key, none ? 0 : 1);
 }
 
 FUNCTION(mm_device) {

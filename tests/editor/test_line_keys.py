@@ -118,3 +118,14 @@ def test_a_program_can_have_its_own_prompt(terminal: ScreenTerminal) -> None:
     assert typed(terminal, "PRINT 12", LEFT, "x") == "line 2: PRINT 1x2"
     assert terminal.cursor()[1] == 16
     terminal.type("\x15NEW\r", b"\r\n> ")
+
+
+@pytest.mark.parametrize(
+    ("key", "code"),
+    [("\x1b[A", 128), ("\x1bOD", 130), ("\x1b[3~", 127), ("\x1b[H", 134), ("\x1b[6~", 137),
+     ("\x1bOP", 145), ("\x1b[24~", 156), ("\x1b[1;2R", 179), ("\x1b[Z", 159), ("\x1b", 27),
+     ("x", 120), ("\r", 13), ("\n", 10)],
+)  # fmt: skip
+def test_inkey_tells_keys_without_a_character(terminal, key: str, code: int) -> None:
+    terminal.type('DO: k$ = INKEY$: LOOP UNTIL k$ <> "": PRINT ASC(k$); LEN(INKEY$)\r', b"\r\n")
+    assert terminal.type(key).startswith(f" {code} 0\r\n".encode())
