@@ -279,7 +279,8 @@ static void start_waiting(step_t step) {
 
 static bool is_out_of_patience(void) {
     uint64_t patience_us = peer.programs ? PROGRAM_PATIENCE_US : PATIENCE_US;
-    return hal_time_us() - peer.since_us > patience_us || peer.polls > PATIENCE_POLLS;
+    bool is_late = hal_time_us() - peer.since_us > patience_us && peer.polls > 2 * QUIET_POLLS;
+    return is_late || peer.polls > PATIENCE_POLLS;
 }
 
 // A program may leave the cursor behind a control character, which takes no place on the screen.
