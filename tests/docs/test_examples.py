@@ -57,10 +57,12 @@ class Typed:
     answer: list[str] = field(default_factory=list)
 
 
-def script(page: str) -> list[Typed]:
-    """Return what a page says to type, in order."""
+def script(page: str, *, programs: bool = True) -> list[Typed]:
+    """Return what a page says to type, in order; without its `basic` blocks if asked for."""
     typed: list[Typed] = []
     for block in blocks(page):
+        if block.language == "basic" and not programs:
+            continue
         if block.language == "basic" and block.heading in PROGRAMS:
             typed.append(Typed(WAIT))
             typed.append(Typed("AUTOSAVE\n" + "\n".join(block.lines) + "\n" + CTRL_Z))
