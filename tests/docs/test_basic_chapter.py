@@ -39,7 +39,9 @@ def output(program: str, folder: Path) -> list[str]:
         timeout=60,
         check=False,
     )
-    _, _, printed = done.stdout.replace("\r", "").partition("\n\n")  # the banner ends with a blank line
+    _, _, printed = done.stdout.replace("\r", "").partition(
+        "\n\n"
+    )  # the banner ends with a blank line
     return [line.rstrip() for line in printed.expandtabs(8).splitlines()]
 
 

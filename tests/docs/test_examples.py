@@ -18,7 +18,13 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 STEPMITE = ROOT / "build/host/stepmite"
 PC_TOOLS = ROOT / ".venv/bin/stepmite"
-PAGES = ["README.md", "docs/user-guide.md", "docs/pc-tools.md", "docs/testing.md"]
+PAGES = [
+    "README.md",
+    "docs/user-guide.md",
+    "docs/pc-tools.md",
+    "docs/testing.md",
+    "docs/basic.md",
+]
 CTRL_Z = "\x1a"
 PROGRAMS = ("Programs", "Larger programs")  # headings of blocks that are typed as one program
 WAIT = "DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) = 0"
