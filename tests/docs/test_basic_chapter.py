@@ -1,8 +1,8 @@
 """Every program of docs/basic.md prints what the page says it prints, on the host program.
 
-A `basic` block is a whole program; a `text` block behind it is all it prints. Blocks with prompts are
-one session in their order; what stands between two prompts is the answer, without one any answer will
-do that is no error.
+A `basic` block is a whole program; a `text` block behind it is all it prints. Blocks with prompts
+are one session in their order; what stands between two prompts is the answer, without one any answer
+will do that is no error.
 """
 
 from __future__ import annotations
@@ -39,9 +39,8 @@ def output(program: str, folder: Path) -> list[str]:
         timeout=60,
         check=False,
     )
-    _, _, printed = done.stdout.replace("\r", "").partition(
-        "\n\n"
-    )  # the banner ends with a blank line
+    # The banner ends with a blank line.
+    _, _, printed = done.stdout.replace("\r", "").partition("\n\n")
     return [line.rstrip() for line in printed.expandtabs(8).splitlines()]
 
 
