@@ -13,10 +13,12 @@ static const char *const err_texts[ERR_COUNT] = {
 #undef ERR
 };
 
+static err_t err_now;
 static char err_text_now[ERR_MESSAGE_SIZE];
 
 err_t err_raise(err_t code, const char *detail_format, ...) {
     const char *text = err_texts[code];
+    err_now = code;
     const char *slot = strchr(text, '%');
     if (slot == NULL) {
         format_text(err_text_now, sizeof err_text_now, "%s", text);
@@ -37,6 +39,10 @@ err_t err_raise(err_t code, const char *detail_format, ...) {
         memcpy(err_text_now + sizeof err_text_now - sizeof "...", "...", sizeof "...");
     }
     return code;
+}
+
+err_t err_code(void) {
+    return err_now;
 }
 
 const char *err_message(void) {

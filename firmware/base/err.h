@@ -20,6 +20,9 @@ typedef enum {
 // place of that character; otherwise pass NULL. Returns `code`, so that `return err_raise(...)` works.
 err_t err_raise(err_t code, const char *detail_format, ...) __attribute__((format(printf, 2, 3)));
 
+// The code of the error raised last.
+err_t err_code(void);
+
 // The text of the error raised last, complete with its detail. Valid until the next err_raise().
 const char *err_message(void);
 

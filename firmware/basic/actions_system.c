@@ -93,7 +93,9 @@ ACTION_BODY(on_error) {
     if (statements < 1 || statements > INT32_MAX) {
         errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
     }
-    vm.error_text[0] = '\0';
+    if (arguments[0].integer != ACTIONS_ERROR_ABORT) {
+        vm.error_text[0] = '\0';
+    }
     switch (arguments[0].integer) {
     case ACTIONS_ERROR_ABORT:
         vm.on_error = VM_ERROR_ABORT;

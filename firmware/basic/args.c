@@ -67,9 +67,9 @@ static void compile_routine_name(void) {
     }
 }
 
-static bool is_pin_name(const lexer_token_t *name) {
-    return name->length > 2 && lexer_same(name->text, 2, "GP") && name->text[2] >= '0' &&
-           name->text[2] <= '9';
+bool args_is_pin_name(const lexer_token_t *name) {
+    return name->kind == LEXER_NAME && name->suffix == 0 && name->length > 2 &&
+           lexer_same(name->text, 2, "GP") && name->text[2] >= '0' && name->text[2] <= '9';
 }
 
 static void compile_number_token(void) {
@@ -98,7 +98,8 @@ static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) 
             compile_word(false);
             return;
         }
-        if (spec->kind == BASIC_ARG_CHOICE || (spec->kind == BASIC_ARG_PIN && is_pin_name(token))) {
+        if (spec->kind == BASIC_ARG_CHOICE ||
+            (spec->kind == BASIC_ARG_PIN && args_is_pin_name(token))) {
             emit_string(token->text, token->length);
             lexer_next();
             return;

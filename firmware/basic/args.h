@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "basic/basic.h"
+#include "lexer.h"
 #include "value.h"
 
 void args_start(const basic_config_t *config);
@@ -21,6 +22,9 @@ void args_compile_command(int row);
 
 // The same for a function and its parentheses.
 void args_compile_function(int row);
+
+// True for GP0, GP1 ...
+bool args_is_pin_name(const lexer_token_t *name);
 
 // A BASIC_ARG_ROUTINE of a statement of the language; args_routine() makes its value a routine.
 void args_compile_routine(void);

@@ -18,7 +18,8 @@ static bool is_cancelled(void) {
 }
 
 bool boot_is_wanted(void) {
-    if (hal_restarted_by_fault()) {
+    hal_start_t reason = hal_start_reason();
+    if (reason == HAL_START_FAULT || reason == HAL_START_HUNG) {
         return false;
     }
     uint64_t until_us = hal_time_us();

@@ -26,6 +26,7 @@ static struct {
     tick_t ticks[EVENTS_TICKS];
     // What the program gets back when the SUB under way ends.
     uint8_t *scratch;
+    err_t error_code;
     const char *error_text; // NULL: empty
     vm_on_error_t on_error;
     unsigned skip_count;
@@ -169,6 +170,7 @@ static bool has_room(const symbols_routine_t *routine) {
 static void save_error_state(void) {
     events.on_error = vm.on_error;
     events.skip_count = vm.skip_count;
+    events.error_code = vm.error_code;
     events.error_text = NULL;
     if (vm.error_text[0] != '\0') {
         size_t size = strlen(vm.error_text) + 1;
@@ -216,6 +218,7 @@ bool events_serve(void) {
 void events_left(void) {
     vm.on_error = events.on_error;
     vm.skip_count = events.skip_count;
+    vm.error_code = events.error_code;
     if (events.error_text != NULL) {
         strcpy(vm.error_text, events.error_text);
     } else {

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "args.h"
 #include "base/base.h"
 #include "emit.h"
 #include "errors.h"
@@ -35,6 +36,17 @@ static void compile_word_argument(void) {
     expressions_compile();
 }
 
+// GPn may stand bare.
+static void compile_pin_argument(void) {
+    const lexer_token_t *name = lexer_now();
+    if (args_is_pin_name(name)) {
+        emit_string(name->text, name->length);
+        lexer_next();
+    } else {
+        expressions_compile();
+    }
+}
+
 static void compile_argument(char type) {
     switch (type) {
     case 'a':
@@ -55,6 +67,9 @@ static void compile_argument(char type) {
         } else {
             expressions_compile();
         }
+        break;
+    case 'p':
+        compile_pin_argument();
         break;
     case 'c':
         lexer_take('#');
@@ -116,14 +131,14 @@ static void compile_indirect(void) {
     emit_indirect(is_call ? INDIRECT_FUNCTION : INDIRECT_EVAL, count);
 }
 
-// MATH(keyword arguments): the row has the name "MATH(KEYWORD", which no program can write otherwise.
+// MATH(keyword arguments), MM.INFO(keyword) or MM.INFO$(keyword): the row has the name "MATH(KEYWORD", which no program can write otherwise.
 static void compile_family(const char *family) {
     lexer_next();
     lexer_expect('(');
     const lexer_token_t *keyword = lexer_now();
     char name[FAMILY_NAME_SIZE];
-    size_t length =
-        format_text(name, sizeof name, "%s(%.*s", family, (int)keyword->length, keyword->text);
+    size_t length = format_text(name, sizeof name, "%.*s(%.*s", (int)strcspn(family, "$"), family,
+                                (int)keyword->length, keyword->text);
     int row = keyword->kind == LEXER_NAME && length < sizeof name
                   ? words_find(WORDS_FUNCTION, name, length)
                   : WORDS_NONE;

@@ -79,16 +79,29 @@ FUNCTION(mm_cmdline) {
     value_set_text(result, argument, length);
 }
 
+// MMBasic numbers the errors of files as its file systems do, and gives all others one number.
+static int64_t number_of(err_t code) {
+    static const struct {
+        err_t code;
+        uint8_t number;
+    } numbers[] = {
+        {ERR_STORAGE_FAILED, 1}, {ERR_FILES_DAMAGED, 2}, {ERR_STORAGE_BUSY, 3},
+        {ERR_FILE_NOT_FOUND, 4}, {ERR_NOT_A_FOLDER, 5},  {ERR_FILE_BAD_NAME, 6},
+        {ERR_DISK_FULL, 7},      {ERR_IS_A_FOLDER, 7},   {ERR_FOLDER_IN_USE, 7},
+        {ERR_FILE_MODE, 7},      {ERR_FILE_EXISTS, 8},
+    };
+    for (size_t i = 0; i < COUNT_OF_ARRAY(numbers); i++) {
+        if (numbers[i].code == code) {
+            return numbers[i].number;
+        }
+    }
+    return ERRNO_GENERAL;
+}
+
 FUNCTION(mm_errno) {
     (void)arguments;
     (void)count;
-    value_set_integer(result, vm.error_text[0] != '\0' ? ERRNO_GENERAL : 0);
-}
-
-FUNCTION(mm_watchdog) {
-    (void)arguments;
-    (void)count;
-    value_set_integer(result, hal_watchdog_restarted());
+    value_set_integer(result, vm.error_text[0] != '\0' ? number_of(vm.error_code) : 0);
 }
 
 FUNCTION(bound) {

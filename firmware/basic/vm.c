@@ -454,6 +454,7 @@ static void loop(void) {
 
 // True if ON ERROR lets the program go on; then it does so behind the statement that failed.
 static bool goes_on_after_error(void) {
+    vm.error_code = err_code();
     format_text(vm.error_text, sizeof vm.error_text, "%s", err_message());
     if (vm.on_error == VM_ERROR_ABORT) {
         return false;

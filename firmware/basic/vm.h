@@ -58,6 +58,7 @@ typedef struct {
     bool stop;           // leave the loop after this statement
     bool at_end;         // the code has come to its end, or to END
     vm_request_t request;
+    err_t error_code;                  // of the error below
     char error_text[ERR_MESSAGE_SIZE]; // MM.ERRMSG$; empty: no error
     void (*on_clear)(void);            // never NULL
 } vm_t;

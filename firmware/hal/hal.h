@@ -44,8 +44,15 @@ _Noreturn void hal_restart(bool watchdog);
 // Starts the boot loader, which waits for a UF2 on USB. (Host: leaves the program, code 4.)
 _Noreturn void hal_bootloader(void);
 
-// True if this start followed a watchdog: hal_restart(true), or the board's own when the firmware hung.
-bool hal_watchdog_restarted(void);
+// Why the firmware was started.
+typedef enum {
+    HAL_START_POWER,    // power-up, or the board's reset
+    HAL_START_RESTART,  // hal_restart(false)
+    HAL_START_WATCHDOG, // hal_restart(true)
+    HAL_START_HUNG,     // the main loop did not come round for seconds
+    HAL_START_FAULT     // of the processor, or a panic
+} hal_start_t;
+hal_start_t hal_start_reason(void);
 
 // "Raspberry Pi Pico", "Raspberry Pi Pico 2", "host".
 const char *hal_board_name(void);
@@ -55,9 +62,6 @@ const char *hal_firmware_version(void);
 
 // All memory that is left over, 8-aligned, for whoever takes it at start-up.
 void *hal_memory(size_t *size);
-
-// True if this start is due to a fault of the firmware: it crashed or hung. (Host: never.)
-bool hal_restarted_by_fault(void);
 
 // ---- Time ----------------------------------------------------------------------------------------
 

@@ -106,3 +106,39 @@ a = f(1)
 PRINT 2; MM.ERRMSG$ '> 2Cannot find a matching END SUB or END FUNCTION
 FUNCTION f(x)
   PRINT "never"
+'--- ON ERROR ABORT keeps the last error, CLEAR forgets it
+ON ERROR IGNORE
+a = 1 / 0
+ON ERROR ABORT
+PRINT MM.ERRMSG$ '>Divide by zero
+ON ERROR CLEAR
+PRINT MM.ERRNO; "[" + MM.ERRMSG$ + "]" '> 0[]
+'--- MM.ERRNO of files
+ON ERROR IGNORE
+OPEN "nowhere.txt" FOR INPUT AS #1
+PRINT MM.ERRNO '> 4
+KILL "nowhere.txt"
+PRINT MM.ERRNO '> 4
+MKDIR "errno"
+MKDIR "errno"
+PRINT MM.ERRNO '> 8
+RMDIR "errno"
+CHDIR "nowhere"
+PRINT MM.ERRNO > 0 '> 1
+a = 1 / 0
+PRINT MM.ERRNO '> 16
+'--- IGNORE keeps the last error until the next
+ON ERROR IGNORE
+a = 1 / 0
+a = 1
+PRINT MM.ERRMSG$ '>Divide by zero
+a = SQR(-1)
+PRINT MM.ERRMSG$ '>Negative argument
+'--- SKIP counts the statements of a SUB, too
+ON ERROR SKIP 3
+s
+PRINT "out" '>out
+SUB s
+  a = 1
+  a = 1 / 0
+END SUB

@@ -57,18 +57,14 @@ void hal_bootloader(void) {
     exit(EXIT_RESTART);
 }
 
-bool hal_watchdog_restarted(void) {
-    return false;
+hal_start_t hal_start_reason(void) {
+    return HAL_START_POWER;
 }
 
 void *hal_memory(size_t *size) {
     static _Alignas(8) uint8_t memory[MEMORY_SIZE];
     *size = sizeof memory;
     return memory;
-}
-
-bool hal_restarted_by_fault(void) {
-    return false;
 }
 
 const char *hal_board_name(void) {

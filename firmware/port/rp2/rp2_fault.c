@@ -16,41 +16,39 @@
 #define REASON_WATCHDOG 0xFA017003u
 
 static char report[80];
-static bool by_watchdog;
-static bool by_fault;
+static hal_start_t start_reason;
 
 void rp2_fault_init(void) {
     uint32_t reason = watchdog_hw->scratch[0];
     unsigned long pc = watchdog_hw->scratch[1];
     unsigned long lr = watchdog_hw->scratch[2];
     if (reason == REASON_FAULT) {
+        start_reason = HAL_START_FAULT;
         format_text(report, sizeof report, "Restarted after a fault at PC=%08lX LR=%08lX\r\n", pc,
                     lr);
     } else if (reason == REASON_PANIC) {
+        start_reason = HAL_START_FAULT;
         format_text(report, sizeof report, "Restarted after a panic at PC=%08lX\r\n", pc);
     } else if (reason == REASON_WATCHDOG) {
-        by_watchdog = true;
+        start_reason = HAL_START_WATCHDOG;
         format_text(report, sizeof report, "Restarted by WATCHDOG\r\n");
-    } else if (reason != REASON_ASKED && watchdog_enable_caused_reboot()) {
-        by_watchdog = true;
+    } else if (reason == REASON_ASKED) {
+        start_reason = HAL_START_RESTART;
+    } else if (watchdog_enable_caused_reboot()) {
+        start_reason = HAL_START_HUNG;
         format_text(report, sizeof report, "Restarted after the main loop hung for %u s\r\n",
                     RP2_FAULT_WATCHDOG_MS / 1000);
     }
-    by_fault = report[0] != '\0' && reason != REASON_WATCHDOG;
     watchdog_hw->scratch[0] = 0;
     watchdog_enable(RP2_FAULT_WATCHDOG_MS, true);
-}
-
-bool hal_restarted_by_fault(void) {
-    return by_fault;
 }
 
 const char *rp2_fault_report(void) {
     return report[0] != '\0' ? report : NULL;
 }
 
-bool hal_watchdog_restarted(void) {
-    return by_watchdog;
+hal_start_t hal_start_reason(void) {
+    return start_reason;
 }
 
 _Noreturn void hal_restart(bool watchdog) {

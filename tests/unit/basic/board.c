@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "hal/hal.h"
+#include "hal/hal_io.h"
 
 #define INPUT_SIZE 40000
 #define SHOWN_SIZE 100000
@@ -215,8 +216,12 @@ void hal_bootloader(void) {
     longjmp(restarted, 3);
 }
 
-bool hal_watchdog_restarted(void) {
-    return board.watchdog_restarted;
+hal_start_t hal_start_reason(void) {
+    return board.start_reason;
+}
+
+uint32_t hal_clock_hz(void) {
+    return 125000000;
 }
 
 bool hal_tick_running(void) {
@@ -225,10 +230,6 @@ bool hal_tick_running(void) {
 
 const char *hal_firmware_version(void) {
     return "1.2.3-test";
-}
-
-bool hal_restarted_by_fault(void) {
-    return board.crashed;
 }
 
 const char *hal_board_name(void) {

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "basic/basic.h"
+#include "hal/hal.h"
 
 // Everything is as after power-on; the flash is empty.
 void board_reset(void);
@@ -34,7 +35,6 @@ const char *board_session(const char *text);
 typedef struct {
     uint64_t time_us;
     uint64_t blocked_until_us;   // the terminal takes no output before
-    bool crashed;                // the start before this one
     bool ticking;                // motion runs: the flash is busy
     unsigned writes;             // calls of hal_console_write() that took something
     unsigned backgrounds;        // calls of the background hook
@@ -42,14 +42,14 @@ typedef struct {
     unsigned breaks;             // calls of on_break
     unsigned clears;             // calls of on_clear
     bool busy;                   // nothing may restart the board
-    bool watchdog_restarted;     // it was started by its watchdog
-    unsigned errors;             // calls of on_error
-    bool controllable;           // there is something that Ctrl-F acts on
-    unsigned controls;           // times Ctrl-F did
-    uint64_t control_us;         // when it last did
-    unsigned control_writes;     // writes until then
-    unsigned hold_at_write;      // the terminal sends Ctrl-F when it gets this write
-    bool piped;                  // input is no terminal
+    hal_start_t start_reason;
+    unsigned errors;         // calls of on_error
+    bool controllable;       // there is something that Ctrl-F acts on
+    unsigned controls;       // times Ctrl-F did
+    uint64_t control_us;     // when it last did
+    unsigned control_writes; // writes until then
+    unsigned hold_at_write;  // the terminal sends Ctrl-F when it gets this write
+    bool piped;              // input is no terminal
     unsigned statements;
     void (*on_write)(const uint8_t *bytes, size_t size); // somebody listens; NULL: nobody
     int fail_program_after; // pages until programming the flash fails, -1: never

@@ -65,7 +65,7 @@ static void test_no_restart_while_the_product_is_busy(void) {
 
 static void test_mm_watchdog(void) {
     TEST_ASSERT_NOT_NULL(strstr(board_session("PRINT MM.WATCHDOG\r"), "\r\n 0\r\n"));
-    board.watchdog_restarted = true;
+    board.start_reason = HAL_START_WATCHDOG;
     TEST_ASSERT_NOT_NULL(strstr(board_session("PRINT MM.WATCHDOG\r"), "\r\n 1\r\n"));
 }
 
