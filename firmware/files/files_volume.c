@@ -141,6 +141,13 @@ static lfs_ssize_t mount(lfs_t *lfs, const volume_call_t *call) {
     return lfs_mount(lfs, &config);
 }
 
+// Completes what a power cut has left half done. littlefs would do so at the next write; but until then,
+// with a move to another folder under way, it does not find the file behind the one that was moved.
+static lfs_ssize_t make_consistent(lfs_t *lfs, const volume_call_t *call) {
+    (void)call;
+    return lfs_fs_mkconsistent(lfs);
+}
+
 static lfs_ssize_t format(lfs_t *lfs, const volume_call_t *call) {
     (void)call;
     return lfs_format(lfs, &config);
@@ -159,6 +166,9 @@ static bool is_blank(void) {
 
 bool volume_start(void) {
     bool mounted = guarded(mount, NULL) == 0;
+    if (mounted && hal_storage_is_writable() && guarded(make_consistent, NULL) != 0) {
+        mounted = guarded(mount, NULL) == 0; // what can be read shall be read
+    }
     volume.state = mounted ? VOLUME_MOUNTED : VOLUME_NONE;
     return mounted || is_blank();
 }
