@@ -8,11 +8,15 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from stepmite import image_cmd
+
 app = typer.Typer(
     help="Tools for the StepMite motion controller.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
 )
+
+app.add_typer(image_cmd.app, name="image")
 
 PortOption = Annotated[
     str | None,
