@@ -14,6 +14,7 @@
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
 #define COPY_SIZE 512u
 #define LIST_SIZE 64u
+#define LIST_RESERVE 1024u
 
 static void check(err_t error) {
     if (error != ERR_OK) {
@@ -44,21 +45,18 @@ ACTION_BODY(rename) {
 
 // ---- KILL ----------------------------------------------------------------------------------------
 
-// The first, again and again: a removal ends a list.
 static void kill_all(const char *path) {
     const char *pattern;
     const char *folder = file_names_split(path, &pattern);
-    size_t length = strlen(folder);
+    bool separated = strchr("/\\:", folder[strlen(folder) - 1]) != NULL;
+    size_t size = strlen(folder) + 1 + FILES_NAME_MAX + 1;
+    char *victim = memory_text(size);
     files_entry_t entry;
     unsigned killed = 0;
-    while (file_names_next(folder, pattern, FILE_NAMES_FILES, "", &entry)) {
-        uint8_t *scratch = memory.scratch;
-        char *victim = memory_text(length + 1 + FILES_NAME_MAX + 1);
-        bool separated = strchr("/\\:", folder[length - 1]) != NULL;
-        format_text(victim, length + 1 + FILES_NAME_MAX + 1, "%s%s%s", folder, separated ? "" : "/",
-                    entry.name);
+    check(files_list_start(folder));
+    while (file_names_next(pattern, FILE_NAMES_FILES, &entry)) {
+        format_text(victim, size, "%s%s%s", folder, separated ? "" : "/", entry.name);
         check(files_remove(victim));
-        memory.scratch = scratch;
         killed++;
         console_poll();
         if (console_break_pending()) {
@@ -134,28 +132,55 @@ ACTION_BODY(xmodem_send) {
 
 // ---- Lists ---------------------------------------------------------------------------------------
 
-static bool list_entry(const files_entry_t *entry) {
+// The entries of a folder in the order in which FILES shows them, in the scratch.
+typedef struct listed {
+    struct listed *next;
+    uint32_t size;
+    bool is_folder;
+    char name[]; // zero-terminated
+} listed_t;
+
+static bool is_before(const listed_t *left, const listed_t *right) {
+    return left->is_folder != right->is_folder ? left->is_folder
+                                               : strcmp(left->name, right->name) < 0;
+}
+
+// Files come nearly in order, so the search starts at the one that was put in last.
+static void put_in_order(listed_t **first, listed_t **last, listed_t *entry) {
+    listed_t **place = *last != NULL && is_before(*last, entry) ? &(*last)->next : first;
+    while (*place != NULL && is_before(*place, entry)) {
+        place = &(*place)->next;
+    }
+    entry->next = *place;
+    *place = entry;
+    *last = entry;
+}
+
+// As many as there is memory for, at least one. True: there may be more.
+static bool gather(const char *pattern, listed_t **first) {
+    listed_t *last = NULL;
+    files_entry_t entry;
+    *first = NULL;
+    while (last == NULL || memory_free() > LIST_RESERVE) {
+        if (!file_names_next(pattern, FILE_NAMES_ALL, &entry)) {
+            return false;
+        }
+        listed_t *listed = memory_scratch(sizeof *listed + strlen(entry.name) + 1);
+        listed->size = entry.size;
+        listed->is_folder = entry.is_folder;
+        strcpy(listed->name, entry.name);
+        put_in_order(first, &last, listed);
+    }
+    return true;
+}
+
+static bool list_entry(const listed_t *entry) {
     char line[FILES_NAME_MAX + 16];
     size_t length =
         entry->is_folder
             ? format_text(line, sizeof line, "%10s  %s", "<DIR>", entry->name)
             : format_text(line, sizeof line, "%10u  %s", (unsigned)entry->size, entry->name);
     return pager_line(line, length);
-}
-
-static bool list_kind(const char *folder, const char *pattern, bool folders, unsigned *listed) {
-    check(files_list_start(folder));
-    files_entry_t entry;
-    *listed = 0;
-    while (files_list_next(&entry)) {
-        if (entry.is_folder == folders && file_names_match(pattern, entry.name)) {
-            ++*listed;
-            if (!list_entry(&entry)) {
-                return false;
-            }
-        }
-    }
-    return true;
 }
 
 static void list_summary(unsigned folders, unsigned listed) {
@@ -168,15 +193,25 @@ static void list_summary(unsigned folders, unsigned listed) {
     pager_line(line, length);
 }
 
-// Folders first. The file system keeps its entries in the order of their names.
+// Folders first, names in order; if the memory is too small for that, one part after the other.
 static void list_folder(const char *folder, const char *pattern) {
-    unsigned folders = 0;
-    unsigned listed = 0;
+    unsigned counts[2] = {0, 0}; // files, folders
+    uint8_t *scratch = memory.scratch;
+    listed_t *entry;
+    bool more;
     check(files_list_start(folder));
     pager_start(false);
-    if (list_kind(folder, pattern, true, &folders) && list_kind(folder, pattern, false, &listed)) {
-        list_summary(folders, listed);
-    }
+    do {
+        more = gather(pattern, &entry);
+        for (; entry != NULL; entry = entry->next) {
+            counts[entry->is_folder]++;
+            if (!list_entry(entry)) {
+                return;
+            }
+        }
+        memory.scratch = scratch;
+    } while (more);
+    list_summary(counts[true], counts[false]);
 }
 
 ACTION_BODY(files) {

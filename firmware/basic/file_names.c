@@ -66,24 +66,19 @@ bool file_names_match(const char *pattern, const char *name) {
     return *pattern == '\0';
 }
 
-static bool is_wanted(const files_entry_t *entry, const char *pattern, file_names_kind_t kind) {
-    bool of_kind = kind == FILE_NAMES_ALL || entry->is_folder == (kind == FILE_NAMES_FOLDERS);
-    return of_kind && file_names_match(pattern, entry->name);
-}
-
-bool file_names_next(const char *folder, const char *pattern, file_names_kind_t kind,
-                     const char *after, files_entry_t *entry) {
-    if (files_list_start(folder) != ERR_OK) {
-        errors_fail_raised();
-    }
-    bool found = false;
-    files_entry_t seen;
-    while (files_list_next(&seen)) {
-        bool first = strcmp(seen.name, after) > 0 && (!found || strcmp(seen.name, entry->name) < 0);
-        if (first && is_wanted(&seen, pattern, kind)) {
-            *entry = seen;
-            found = true;
+bool file_names_next(const char *pattern, file_names_kind_t kind, files_entry_t *entry) {
+    while (files_list_next(entry)) {
+        bool of_kind = kind == FILE_NAMES_ALL || entry->is_folder == (kind == FILE_NAMES_FOLDERS);
+        if (of_kind && file_names_match(pattern, entry->name)) {
+            return true;
         }
     }
-    return found;
+    return false;
+}
+
+int file_names_order(const char *left, const char *right) {
+    size_t of_left = strlen(left);
+    size_t of_right = strlen(right);
+    int order = memcmp(left, right, of_left < of_right ? of_left : of_right);
+    return order != 0 ? order : (int)of_right - (int)of_left;
 }

@@ -22,9 +22,10 @@ bool file_names_match(const char *pattern, const char *name);
 // Which entries a list takes.
 typedef enum { FILE_NAMES_FILES, FILE_NAMES_FOLDERS, FILE_NAMES_ALL } file_names_kind_t;
 
-// The entry of `folder` with the first name behind `after` ("": the very first) in the order of the
-// characters' codes that fits; `after` is not in `entry`. False: there is none. Error: no such folder.
-bool file_names_next(const char *folder, const char *pattern, file_names_kind_t kind,
-                     const char *after, files_entry_t *entry);
+// The next entry of the list that fits; false: there is none.
+bool file_names_next(const char *pattern, file_names_kind_t kind, files_entry_t *entry);
+
+// <0, 0, >0: how two names follow each other in a list.
+int file_names_order(const char *left, const char *right);
 
 #endif

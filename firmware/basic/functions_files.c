@@ -9,14 +9,22 @@
 
 #define FUNCTION(name) void functions_##name(value_t *arguments, unsigned count, value_t *result)
 
-// What DIR$() without arguments goes on with. It looks for the next name afresh each time, so files may
-// come and go meanwhile.
+// What DIR$() without arguments goes on with. If somebody else has made a list meanwhile, it starts anew
+// and goes on behind the name given last.
 static struct {
     char folder[FILES_PATH_MAX + 1];
     char pattern[FILES_NAME_MAX + 1];
     char last[FILES_NAME_MAX + 1]; // the name given last
     file_names_kind_t kind;
+    unsigned list; // number of its list
 } dir;
+
+static void open_list(void) {
+    if (files_list_start(dir.folder) != ERR_OK) {
+        errors_fail_raised();
+    }
+    dir.list = files_list_number();
+}
 
 static void set_copy(value_t *result, const char *text) {
     size_t length = strlen(text);
@@ -55,14 +63,19 @@ static void start_list(const value_t *arguments, unsigned count) {
 FUNCTION(dir) {
     if (count > 0) {
         start_list(arguments, count);
+        open_list();
     } else if (dir.pattern[0] == '\0') {
         errors_fail_with(ERR_ARGUMENTS_MISSING, "pattern");
+    } else if (dir.list != files_list_number()) {
+        open_list();
     }
     files_entry_t entry;
-    if (!file_names_next(dir.folder, dir.pattern, dir.kind, dir.last, &entry)) {
-        value_set_text(result, "", 0);
-        return;
-    }
+    do {
+        if (!file_names_next(dir.pattern, dir.kind, &entry)) {
+            value_set_text(result, "", 0);
+            return;
+        }
+    } while (file_names_order(entry.name, dir.last) <= 0 && dir.last[0] != '\0');
     strcpy(dir.last, entry.name);
     set_copy(result, entry.name);
 }

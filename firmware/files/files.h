@@ -94,9 +94,13 @@ err_t files_remove_folder(const char *path); // error: not empty
 err_t files_change_folder(const char *path);
 const char *files_folder(void);
 
-// The entries of a folder, in no order, but for those whose names start with a dot: they are the firmware's own. One list at a time: a further start, or any change of a name, ends it.
+// The entries of a folder by the codes of their characters, but "name10" comes before "name1". One list at
+// a time: a further start ends it. Files may be deleted meanwhile; new ones may be missing.
 err_t files_list_start(const char *folder);
 bool files_list_next(files_entry_t *entry);
+
+// Tells one list from the next.
+unsigned files_list_number(void);
 
 err_t files_info(const char *path, files_entry_t *entry);
 

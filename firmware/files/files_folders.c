@@ -10,6 +10,7 @@ static struct {
     lfs_dir_t folder;
     bool open;
     unsigned generation;
+    unsigned number;
 } list;
 
 static lfs_ssize_t do_make(lfs_t *lfs, const volume_call_t *call) {
@@ -76,6 +77,7 @@ static void end_list(void) {
 
 err_t files_list_start(const char *folder) {
     end_list();
+    list.number++;
     files_path_t place;
     files_entry_t entry;
     err_t error = path_resolve(folder, &place);
@@ -94,6 +96,10 @@ err_t files_list_start(const char *folder) {
     list.open = error == ERR_OK;
     list.generation = volume_generation();
     return result == LFS_ERR_NOENT ? ERR_OK : error; // no file system yet: an empty root
+}
+
+unsigned files_list_number(void) {
+    return list.number;
 }
 
 bool files_list_next(files_entry_t *entry) {

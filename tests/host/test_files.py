@@ -57,7 +57,7 @@ def written(name: str, lines: list[str]) -> list[str]:
 
 
 def test_files_lists_folders_then_files_in_order() -> None:
-    names = [f"{n * 7919 % 1000:03}.nc" for n in range(60)]
+    names = [f"{n * 7919 % 1000:03}.nc" for n in range(56)] + ["f1", "f10", "f100", "f2"]
     make = [f'OPEN "{name}" FOR OUTPUT AS #1:PRINT #1, "123":CLOSE' for name in names]
     shown = answers(*make, 'MKDIR "z"', 'MKDIR "b"', "OPTION DISPLAY 100", "FILES", 'FILES "00?.*"')
     end = shown.index("2 folders, 60 files, 1024000 bytes free")
@@ -66,6 +66,17 @@ def test_files_lists_folders_then_files_in_order() -> None:
     few = [name for name in sorted(names) if name.startswith("00")]
     assert [line.split()[-1] for line in shown[end + 1 : -1]] == few
     assert re.match(rf"0 folders, {len(few)} files?, ", shown[-1])
+
+
+def test_files_lists_all_in_a_small_memory() -> None:
+    """In parts then, each in order."""
+    make = 'FOR i=1 TO 200:OPEN "f"+STR$(i) FOR OUTPUT AS #1:CLOSE:NEXT'
+    eat = 'ON ERROR SKIP 2000:FOR i=1 TO 700:EXECUTE "DIM a"+STR$(i)+"(20)":NEXT'
+    program = f"{make}\r{eat}\rFILES\rPRINT MM.ERRMSG$"
+    shown = answers("OPTION DISPLAY 255", f"AUTOSAVE\r{program}\r{CTRL_Z}RUN\r  ")
+    listed = [line.split()[-1] for line in shown if line.startswith("         0  f")]
+    assert sorted(listed) == sorted(f"f{n}" for n in range(1, 201))
+    assert listed != sorted(listed)  # it was in parts
 
 
 def test_a_long_list_stops_at_each_screen() -> None:
