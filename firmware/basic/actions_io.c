@@ -42,6 +42,13 @@ void actions_print_tab(value_t *arguments, unsigned count) {
     }
 }
 
+void actions_cls(value_t *arguments, unsigned count) {
+    (void)arguments;
+    (void)count;
+    console_print("\x1b[2J\x1b[H");
+    console_set_column(0);
+}
+
 // column, row, from 0 at the top left
 void actions_print_at(value_t *arguments, unsigned count) {
     (void)count;

@@ -34,6 +34,12 @@ void actions_erase(value_t *arguments, unsigned count) {
     arrays_erase((uint16_t)arguments->integer);
 }
 
+void actions_clear(value_t *arguments, unsigned count) {
+    (void)arguments;
+    (void)count;
+    arrays_erase_all();
+}
+
 // variable, index, value
 void actions_fill(value_t *arguments, unsigned count) {
     (void)count;

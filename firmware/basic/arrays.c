@@ -59,6 +59,19 @@ void arrays_erase(uint16_t variable) {
     *slot = (value_t){.type = VALUE_NONE}; // what was a local's goes at the end of its routine
 }
 
+static void erase_symbol(symbols_t *symbol) {
+    if (symbol->value.type != VALUE_NONE) {
+        arrays_erase(memory_handle(symbol));
+    }
+}
+
+void arrays_erase_all(void) {
+    if (calls_routine() != NULL) {
+        errors_fail(ERR_INVALID_HERE);
+    }
+    symbols_each_of(SYMBOLS_VARIABLE, erase_symbol);
+}
+
 // ---- REDIM ---------------------------------------------------------------------------------------
 
 // The array was made since the routine that runs was entered, and not outside an EXECUTE around us.

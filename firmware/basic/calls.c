@@ -80,6 +80,18 @@ static void bind(value_t *argument, uint8_t type, unsigned number) {
     argument->flags = 0;
 }
 
+// An array, or BYVAL.
+static void bind_specially(value_t *argument, uint8_t type, unsigned number) {
+    if (type & SYMBOLS_ARRAY_FLAG) {
+        bind_array(argument, type, number);
+        return;
+    }
+    if (argument->type != VALUE_ARRAY) {
+        value_fetch(argument);
+    }
+    bind(argument, (uint8_t)(type & ~SYMBOLS_VALUE_FLAG), number);
+}
+
 void calls_save_texts(value_t *from, const value_t *end) {
     for (value_t *value = from; value < end; value++) {
         const uint8_t *text = (const uint8_t *)value->text;
@@ -112,8 +124,8 @@ void calls_enter(const symbols_routine_t *routine, unsigned count) {
         if (i >= count) {
             argument->type = VALUE_NONE;
         }
-        if (type & SYMBOLS_ARRAY_FLAG) {
-            bind_array(argument, type, i + 1);
+        if (type & (SYMBOLS_ARRAY_FLAG | SYMBOLS_VALUE_FLAG)) {
+            bind_specially(argument, type, i + 1);
         } else {
             bind(argument, type, i + 1);
         }

@@ -239,7 +239,11 @@ static void compile_label_of_line(void) {
     if (line_too_long) {
         errors_fail(ERR_LINE_TOO_LONG);
     }
-    line_start = compile_label(line_start, line_end);
+    const char *behind = compile_label(line_start, line_end);
+    if (behind != line_start && behind[-1] != ':') { // a line number: a label may follow
+        behind = compile_label(behind, line_end);
+    }
+    line_start = behind;
 }
 
 static void compile_line_of_program(void) {

@@ -131,6 +131,28 @@ FUNCTION(bin2str) {
     value_set_text(result, bytes, format->size);
 }
 
+// ---- BYTE, BIT -----------------------------------------------------------------------------------
+
+static unsigned in_range(const value_t *argument, int64_t least, int64_t most) {
+    if (argument->integer < least || argument->integer > most) {
+        errors_fail_with(ERR_ARGUMENT, "%lld is invalid (valid is %d to %d)",
+                         (long long)argument->integer, (int)least, (int)most);
+    }
+    return (unsigned)argument->integer;
+}
+
+FUNCTION(byte) {
+    (void)count;
+    unsigned place = in_range(&arguments[1], 1, arguments[0].length);
+    value_set_integer(result, (uint8_t)arguments[0].text[place - 1]);
+}
+
+FUNCTION(bit) {
+    (void)count;
+    unsigned place = in_range(&arguments[1], 0, 63);
+    value_set_integer(result, (int64_t)((uint64_t)arguments[0].integer >> place & 1));
+}
+
 // ---- Checksums -----------------------------------------------------------------------------------
 
 typedef struct {

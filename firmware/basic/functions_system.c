@@ -31,6 +31,12 @@ FUNCTION(timer) {
     value_set_number(result, now_ms() + timer_offset_ms);
 }
 
+FUNCTION(pos) {
+    (void)arguments;
+    (void)count;
+    value_set_integer(result, (int64_t)console_column() + 1);
+}
+
 // Keys that have no character have the codes that MMBasic gives them: 128 is up, 145 F1, 177 Shift-F1.
 FUNCTION(inkey) {
     (void)arguments;

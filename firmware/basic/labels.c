@@ -85,7 +85,7 @@ static void forget_waiting(symbols_t *label) {
 
 void labels_forget(uint32_t place) {
     failed_from = place;
-    symbols_each_label(forget_waiting);
+    symbols_each_of(SYMBOLS_LABEL, forget_waiting);
 }
 
 static uint32_t no_line_number_stub, no_label_stub;
@@ -110,5 +110,5 @@ static void resolve(symbols_t *label) {
 void labels_resolve(uint32_t no_line_number, uint32_t no_label) {
     no_line_number_stub = no_line_number;
     no_label_stub = no_label;
-    symbols_each_label(resolve);
+    symbols_each_of(SYMBOLS_LABEL, resolve);
 }

@@ -20,8 +20,10 @@ const statements_row_t statements_table[] = {
     {"CALL", statements_call, "CALL name$ [, argument ...]", "Calls the SUB of that name"},
     {"CASE", statements_case, NULL, NULL},
     {"CHDIR", statements_chdir, "CHDIR folder$", "Goes to a folder; \"..\": the one above"},
+    {"CLEAR", statements_clear, "CLEAR", "Deletes all variables; not in a SUB or FUNCTION"},
     {"CLOSE", statements_close, "CLOSE [[#]n [, ...]]", "Closes channels; alone, all of them"},
     {"CAT", statements_cat, "CAT name$, text$", "Appends to a string variable"},
+    {"CLS", statements_cls, "CLS", "Clears the screen of the terminal"},
     {"CONST", statements_const, "CONST name = value [, ...]", "Names a value that cannot change"},
     {"CONTINUE", statements_continue, "CONTINUE FOR|DO", "Goes on with the next turn of a loop"},
     {"COPY", statements_copy, "COPY file$ TO file$", "Copies a file"},
@@ -128,45 +130,6 @@ _Static_assert(COUNT_OF_ARRAY(statements_table) <= WORDS_ROWS_MAX, "no word for 
 
 const size_t statements_count = COUNT_OF_ARRAY(statements_table);
 
-static void compile_assignment(void) {
-    const lexer_token_t *name = lexer_now();
-    if (lexer_is_word("DATE$") || lexer_is_word("TIME$")) {
-        actions_t action = lexer_is_word("DATE$") ? ACTIONS_SET_DATE : ACTIONS_SET_TIME;
-        lexer_next();
-        lexer_expect('=');
-        expressions_compile();
-        emit_action(action, 1);
-        return;
-    }
-    int row = words_find(WORDS_ASSIGNMENT, name->text, name->length);
-    if (row != WORDS_NONE) {
-        args_compile_assignment(row);
-        return;
-    }
-    if (words_is_reserved(name->text, name->length) ||
-        words_find(WORDS_FUNCTION, name->text, name->length) != WORDS_NONE) {
-        errors_fail(ERR_SYNTAX);
-    }
-    uint16_t variable = expressions_compile_name();
-    if (lexer_is('(')) {
-        unsigned count = expressions_compile_subscripts();
-        lexer_expect('=');
-        expressions_compile();
-        emit_element(OP_STORE_ELEMENT, variable, count);
-    } else {
-        lexer_expect('=');
-        expressions_compile();
-        emit_variable(OP_STORE, variable);
-    }
-}
-
-void statements_let(void) {
-    if (lexer_now()->kind != LEXER_NAME) {
-        errors_fail(ERR_SYNTAX);
-    }
-    compile_assignment();
-}
-
 // Where the parenthesis at the token at hand closes, as a place behind it; NULL: it does not.
 static const char *behind_parentheses(void) {
     unsigned depth = 0;
@@ -251,7 +214,7 @@ bool statements_compile_other(void) {
     const lexer_token_t *token = lexer_now();
     if (token->kind == LEXER_NAME) {
         if (is_assignment()) {
-            compile_assignment();
+            statements_let();
             return true;
         }
         symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, token->text, lexer_bare_length(token));

@@ -130,6 +130,10 @@ void statements_erase(void) {
     } while (lexer_take(','));
 }
 
+void statements_clear(void) {
+    emit_action(ACTIONS_CLEAR, 0);
+}
+
 void statements_redim(void) {
     declare_compile_again(lexer_take_word("PRESERVE"));
 }

@@ -22,6 +22,10 @@ static void compile_print_item(void) {
     }
 }
 
+void statements_cls(void) {
+    emit_action(ACTIONS_CLS, 0);
+}
+
 void statements_print(void) {
     if (lexer_take('#')) {
         statements_print_channel();

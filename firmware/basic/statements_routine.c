@@ -12,8 +12,12 @@
 #include "symbols.h"
 #include "words.h"
 
-// `a`, `b%`, `c$`, `d AS INTEGER`, `e()`
+// `a`, `b%`, `c$`, `d AS INTEGER`, `e()`; with BYVAL or BYREF before
 static void compile_parameter(symbols_routine_t *routine) {
+    bool by_value = lexer_take_word("BYVAL");
+    if (!by_value) {
+        lexer_take_word("BYREF"); // as it is anyway
+    }
     lexer_token_t name = *lexer_now();
     if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length)) {
         errors_fail(ERR_SYNTAX);
@@ -25,6 +29,9 @@ static void compile_parameter(symbols_routine_t *routine) {
     bool is_array = lexer_take('(');
     if (is_array) {
         lexer_expect(')');
+    }
+    if (is_array && by_value) {
+        errors_fail(ERR_SYNTAX);
     }
     uint8_t type = lexer_suffix_type(name.suffix);
     if (lexer_take_word("AS")) {
@@ -38,7 +45,9 @@ static void compile_parameter(symbols_routine_t *routine) {
     }
     names_local(&name, type);
     routine->parameter_types[routine->parameters++] =
-        (uint8_t)(type | (is_array ? SYMBOLS_ARRAY_FLAG : 0));
+        (uint8_t)(type | (is_array   ? SYMBOLS_ARRAY_FLAG
+                          : by_value ? SYMBOLS_VALUE_FLAG
+                                     : 0));
 }
 
 static void compile_parameters(symbols_routine_t *routine) {

@@ -86,24 +86,24 @@ symbols_t *symbols_get(symbols_kind_t kind, uint16_t scope, const char *name, si
     return symbol;
 }
 
-void symbols_each(void (*visit)(symbols_t *symbol)) {
-    for (unsigned i = 0; i < BUCKETS; i++) {
-        for (uint16_t handle = symbols.buckets[i]; handle != 0;) {
-            symbols_t *symbol = memory_place(handle);
-            handle = symbol->next;
-            visit(symbol);
-        }
-    }
-}
+#define ANY_KIND (-1)
 
-void symbols_each_label(void (*visit)(symbols_t *label)) {
+static void each(int kind, void (*visit)(symbols_t *symbol)) {
     for (unsigned i = 0; i < BUCKETS; i++) {
         for (uint16_t handle = symbols.buckets[i]; handle != 0;) {
             symbols_t *symbol = memory_place(handle);
             handle = symbol->next;
-            if (symbol->kind == SYMBOLS_LABEL) {
+            if (kind == ANY_KIND || symbol->kind == kind) {
                 visit(symbol);
             }
         }
     }
+}
+
+void symbols_each(void (*visit)(symbols_t *symbol)) {
+    each(ANY_KIND, visit);
+}
+
+void symbols_each_of(symbols_kind_t kind, void (*visit)(symbols_t *symbol)) {
+    each((int)kind, visit);
 }

@@ -12,6 +12,7 @@
 #define SYMBOLS_NAME_MAX 32
 #define SYMBOLS_PARAMETERS_MAX 16
 #define SYMBOLS_ARRAY_FLAG 0x80u // on a parameter's type: a whole array
+#define SYMBOLS_VALUE_FLAG 0x40u // a copy, whatever the argument is (BYVAL)
 
 typedef enum { SYMBOLS_VARIABLE, SYMBOLS_ROUTINE, SYMBOLS_LABEL } symbols_kind_t;
 
@@ -22,7 +23,7 @@ typedef struct {
     uint8_t type; // of a FUNCTION's value: VALUE_FLOAT, _INTEGER, _STRING
     uint8_t parameters;
     uint8_t locals; // places on the stack: the value, the parameters, LOCALs, loops
-    uint8_t parameter_types[SYMBOLS_PARAMETERS_MAX]; // with SYMBOLS_ARRAY_FLAG
+    uint8_t parameter_types[SYMBOLS_PARAMETERS_MAX]; // with the flags
     uint16_t symbol;                                 // handle of its name
     const uint32_t *names; // of the locals, as names.c packs them; NULL until its end is compiled
 } symbols_routine_t;
@@ -66,7 +67,7 @@ void *symbols_memory(size_t size);
 // Calls `visit` for every name.
 void symbols_each(void (*visit)(symbols_t *symbol));
 
-// Calls `visit` for every label.
-void symbols_each_label(void (*visit)(symbols_t *label));
+// The same for the names of one kind.
+void symbols_each_of(symbols_kind_t kind, void (*visit)(symbols_t *symbol));
 
 #endif
