@@ -1,5 +1,4 @@
-// EDIT: the screen, the loop and what belongs to no key. The text, what can be taken back and the
-// cells of the screen lie in the free part of the arena. Context: main loop.
+// EDIT: the beginning, the loop and the end. Context: main loop.
 #include "editor.h"
 
 #include <stdint.h>
@@ -7,10 +6,10 @@
 #include "console.h"
 #include "editor_commands.h"
 #include "editor_cursor.h"
+#include "editor_layout.h"
 #include "editor_screen.h"
 #include "editor_store.h"
 #include "editor_text.h"
-#include "editor_undo.h"
 #include "editor_view.h"
 #include "hal/hal.h"
 #include "keys.h"
@@ -18,14 +17,9 @@
 #include "options.h"
 #include "program.h"
 
-#define RESERVE 2048u             // stays free in the arena: what keeping the text needs
 #define ROOM_WANTED (32u * 1024u) // to write in; if there is less, variables give way
 #define SIZE_WAIT_US 150000u      // how long the terminal may take to tell its size
 #define DRAW_AT_LEAST_US 300000u  // so often something is seen of a long paste
-#define ROWS_LEAST 6u
-#define ROWS_MOST 100u
-#define COLUMNS_MOST 255u
-#define UNDO_SIZE 8192u
 
 static struct {
     bool active;
@@ -46,53 +40,7 @@ bool editor_notice(const char *text) {
     return editor.active;
 }
 
-// ---- Screen and memory --------------------------------------------------------------------------
-
-static unsigned clamp(unsigned value, unsigned least, unsigned most) {
-    return value < least ? least : value > most ? most : value;
-}
-
-// Asks the terminal for the size of its screen: where the cursor gets to when it is sent far out. A
-// terminal that does not answer in time has the size that OPTION DISPLAY says. Returns a key that
-// came instead.
-static int ask_for_size(unsigned *rows, unsigned *columns) {
-    console_print("\x1b[999;999H\x1b[6n");
-    console_flush();
-    int key = keys_read(hal_time_us() + SIZE_WAIT_US);
-    *rows = console_rows();
-    *columns = console_columns();
-    if (key == KEYS_SIZE) {
-        *rows = keys_rows();
-        *columns = keys_columns();
-        key = KEYS_UNKNOWN;
-    }
-    *rows = clamp(*rows, ROWS_LEAST, ROWS_MOST);
-    *columns = clamp(*columns, 20, COLUMNS_MOST);
-    return key == KEYS_NO_INPUT ? KEYS_UNKNOWN : key;
-}
-
-// Shares the free memory out. False: there is too little.
-static bool share_memory(unsigned rows, unsigned columns) {
-    size_t size = memory_free();
-    if (size < 4 * RESERVE) {
-        return false;
-    }
-    size = (size - RESERVE) / 8 * 8;
-    size_t cells = editor_screen_size(rows, columns);
-    while (cells > size / 3 && rows > ROWS_LEAST) {
-        rows--;
-        cells = editor_screen_size(rows, columns);
-    }
-    if (cells > size / 3) {
-        return false;
-    }
-    size_t undo = size / 8 < UNDO_SIZE ? size / 8 : UNDO_SIZE;
-    uint8_t *memory_start = memory.heap + (uintptr_t)memory.heap % sizeof(uint16_t);
-    editor_screen_start(memory_start, rows, columns);
-    editor_undo_start(memory_start + cells, undo);
-    editor_text_start(memory_start + cells + undo, size - cells - undo);
-    return true;
-}
+// ---- Loop ---------------------------------------------------------------------------------------
 
 static void set_first_place(bool is_program) {
     size_t place = is_program ? editor.place : 0;
@@ -101,8 +49,6 @@ static void set_first_place(bool is_program) {
     }
     editor_cursor_go(place < editor_text_length() ? place : editor_text_length());
 }
-
-// ---- Loop ---------------------------------------------------------------------------------------
 
 static void draw_if_idle(void) {
     uint64_t now_us = hal_time_us();
@@ -116,7 +62,7 @@ static editor_commands_end_t read_keys(int key, void (*on_break)(void)) {
     editor_commands_end_t end = EDITOR_COMMANDS_GO_ON;
     editor.active = true;
     editor_commands_start(on_break);
-    if (key != KEYS_UNKNOWN) {
+    if (key != KEYS_SIZE && key != KEYS_NO_INPUT) { // typed ahead
         end = editor_commands_do(key);
     }
     while (end == EDITOR_COMMANDS_GO_ON) {
@@ -141,6 +87,8 @@ static bool is_finished(editor_commands_end_t end, const char *file) {
     if (!editor_commands_check()) {
         return false;
     }
+    editor_view_message("Saving ...");
+    editor_view_draw();
     if (editor_store_save(file) != ERR_OK) {
         editor_view_message("Not saved: %s", err_message());
         return false;
@@ -150,13 +98,12 @@ static bool is_finished(editor_commands_end_t end, const char *file) {
 }
 
 static err_t edit(const char *file, void (*on_break)(void), bool *start) {
-    unsigned rows;
-    unsigned columns;
-    int key = ask_for_size(&rows, &columns);
+    editor_layout_ask_size();
+    int key = keys_read(hal_time_us() + SIZE_WAIT_US);
     if (memory_free() < editor_store_size(file) + ROOM_WANTED) {
         program_release();
     }
-    if (!share_memory(rows, columns)) {
+    if (!editor_layout_start(key == KEYS_SIZE)) {
         return err_raise(ERR_NO_MEMORY, "%s", "");
     }
     editor_cursor_start((unsigned)options_get(OPTIONS_TAB));
@@ -172,7 +119,7 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
             *start = end == EDITOR_COMMANDS_RUN;
             return ERR_OK;
         }
-        key = KEYS_UNKNOWN;
+        key = KEYS_NO_INPUT;
     }
 }
 

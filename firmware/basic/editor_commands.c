@@ -11,6 +11,8 @@
 #include "editor_block.h"
 #include "editor_cursor.h"
 #include "editor_find.h"
+#include "editor_layout.h"
+#include "editor_moves.h"
 #include "editor_text.h"
 #include "editor_undo.h"
 #include "editor_view.h"
@@ -40,82 +42,13 @@ void editor_commands_start(void (*on_break)(void)) {
 
 // ---- Moving -------------------------------------------------------------------------------------
 
-static void left(void) {
-    if (editor_cursor.place > 0) {
-        editor_cursor_go(editor_text_before(editor_cursor.place));
-    }
-}
-
-static void right(void) {
-    if (editor_cursor.place < editor_text_length()) {
-        editor_cursor_go(editor_text_behind(editor_cursor.place));
-    }
-}
-
-static void up(void) {
-    editor_cursor_go_lines(-1);
-}
-
-static void down(void) {
-    editor_cursor_go_lines(1);
-}
-
-static void page_up(void) {
-    editor_cursor_go_lines(1 - (long)editor_view_rows());
-}
-
-static void page_down(void) {
-    editor_cursor_go_lines((long)editor_view_rows() - 1);
-}
-
-static void text_start(void) {
-    editor_cursor_go(0);
-}
-
-static void text_end(void) {
-    editor_cursor_go(editor_text_length());
-}
-
-// A second time in a row: the start of the text.
+// A second time in a row: the start of the text, its end.
 static void home(void) {
-    size_t start = editor_text_line_start(editor_cursor.place);
-    bool again = start == editor_cursor.place && commands.last == home;
-    editor_cursor_go(again ? 0 : start);
+    editor_moves_home(commands.last == home);
 }
 
 static void end(void) {
-    size_t line_end = editor_text_line_end(editor_cursor.place);
-    bool again = line_end == editor_cursor.place && commands.last == end;
-    editor_cursor_go(again ? editor_text_length() : line_end);
-}
-
-static bool is_word_part(size_t place) {
-    char c = editor_text_at(place);
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.' || c == '$' || (uint8_t)c >= 0x80;
-}
-
-static void word_left(void) {
-    size_t place = editor_cursor.place;
-    while (place > 0 && !is_word_part(place - 1)) {
-        place--;
-    }
-    while (place > 0 && is_word_part(place - 1)) {
-        place--;
-    }
-    editor_cursor_go(place);
-}
-
-static void word_right(void) {
-    size_t place = editor_cursor.place;
-    size_t length = editor_text_length();
-    while (place < length && is_word_part(place)) {
-        place++;
-    }
-    while (place < length && !is_word_part(place)) {
-        place++;
-    }
-    editor_cursor_go(place);
+    editor_moves_end(commands.last == end);
 }
 
 // ---- Changing -----------------------------------------------------------------------------------
@@ -280,30 +213,30 @@ static const struct {
     run_t run;
     unsigned flags;
 } rows[] = {
-    {KEYS_LEFT, left, MOVES},
-    {KEYS_CONTROL('S'), left, MOVES},
-    {KEYS_RIGHT, right, MOVES},
-    {KEYS_CONTROL('D'), right, MOVES},
-    {KEYS_UP, up, MOVES},
-    {KEYS_CONTROL('E'), up, MOVES},
-    {KEYS_DOWN, down, MOVES},
-    {KEYS_CONTROL('X'), down, MOVES},
+    {KEYS_LEFT, editor_moves_left, MOVES},
+    {KEYS_CONTROL('S'), editor_moves_left, MOVES},
+    {KEYS_RIGHT, editor_moves_right, MOVES},
+    {KEYS_CONTROL('D'), editor_moves_right, MOVES},
+    {KEYS_UP, editor_moves_up, MOVES},
+    {KEYS_CONTROL('E'), editor_moves_up, MOVES},
+    {KEYS_DOWN, editor_moves_down, MOVES},
+    {KEYS_CONTROL('X'), editor_moves_down, MOVES},
     {KEYS_HOME, home, MOVES},
     {KEYS_CONTROL('U'), home, MOVES},
     {KEYS_END, end, MOVES},
     {KEYS_CONTROL('K'), end, MOVES},
-    {KEYS_PAGE_UP, page_up, MOVES},
-    {KEYS_CONTROL('P'), page_up, MOVES},
-    {KEYS_PAGE_DOWN, page_down, MOVES},
-    {KEYS_CONTROL('L'), page_down, MOVES},
-    {KEYS_HOME | KEYS_CTRL, text_start, MOVES},
-    {KEYS_PAGE_UP | KEYS_CTRL, text_start, MOVES},
-    {KEYS_END | KEYS_CTRL, text_end, MOVES},
-    {KEYS_PAGE_DOWN | KEYS_CTRL, text_end, MOVES},
-    {KEYS_LEFT | KEYS_CTRL, word_left, MOVES},
-    {KEYS_CONTROL('A'), word_left, MOVES},
-    {KEYS_RIGHT | KEYS_CTRL, word_right, MOVES},
-    {KEYS_CONTROL('F'), word_right, MOVES},
+    {KEYS_PAGE_UP, editor_moves_page_up, MOVES},
+    {KEYS_CONTROL('P'), editor_moves_page_up, MOVES},
+    {KEYS_PAGE_DOWN, editor_moves_page_down, MOVES},
+    {KEYS_CONTROL('L'), editor_moves_page_down, MOVES},
+    {KEYS_HOME | KEYS_CTRL, editor_moves_text_start, MOVES},
+    {KEYS_PAGE_UP | KEYS_CTRL, editor_moves_text_start, MOVES},
+    {KEYS_END | KEYS_CTRL, editor_moves_text_end, MOVES},
+    {KEYS_PAGE_DOWN | KEYS_CTRL, editor_moves_text_end, MOVES},
+    {KEYS_LEFT | KEYS_CTRL, editor_moves_word_left, MOVES},
+    {KEYS_CONTROL('A'), editor_moves_word_left, MOVES},
+    {KEYS_RIGHT | KEYS_CTRL, editor_moves_word_right, MOVES},
+    {KEYS_CONTROL('F'), editor_moves_word_right, MOVES},
     {'\b', delete_back, MARK | JOINS},
     {DELETE_BACK, delete_back, MARK | JOINS},
     {KEYS_DELETE, delete, MARK | JOINS},
@@ -330,6 +263,8 @@ static const struct {
     {KEYS_INSERT | KEYS_SHIFT, editor_block_paste, 0},
     {KEYS_CONTROL('C'), copy_or_break, MARK},
     {KEYS_F9, to_machine, MARK},
+    {KEYS_F10, editor_layout_refresh, MARK},
+    {KEYS_SIZE, editor_layout_resize, MARK},
     {KEYS_F1, save, 0},
     {KEYS_CONTROL('Q'), save, 0},
     {KEYS_F2, save_and_run, 0},

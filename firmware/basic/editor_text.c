@@ -192,6 +192,17 @@ static bool resize_clipboard(size_t size) {
     return true;
 }
 
+bool editor_text_shrink(size_t count) {
+    if (count > editor_text_room()) {
+        return false;
+    }
+    memmove(text.bytes + text.back - count, text.bytes + text.back, text.limit - text.back);
+    text.back -= count;
+    text.end -= count;
+    text.limit -= count;
+    return true;
+}
+
 bool editor_text_clip(size_t place, size_t count) {
     if (!resize_clipboard(count)) {
         return false;

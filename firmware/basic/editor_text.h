@@ -22,6 +22,9 @@ void editor_text_copy(size_t place, size_t count, char *bytes);
 bool editor_text_insert(size_t place, const char *bytes, size_t count);
 void editor_text_erase(size_t place, size_t count);
 
+// Gives the last `count` bytes of the memory back. False if they are in use.
+bool editor_text_shrink(size_t count);
+
 // The text in one piece, valid until the next call.
 const char *editor_text_flat(void);
 

@@ -24,8 +24,8 @@ static struct {
 } view;
 
 static const char *const key_labels[] = {
-    "F1 Save", "F2 Run",   "F3 Find",  "F4 Mark",     "F5 Paste",
-    "F6 Undo", "ESC Exit", "F8 Repl.", "F7 Del.line", "F9 To machine",
+    "F1 Save",  "F2 Run",   "F3 Find",     "F4 Mark",       "F5 Paste",   "F6 Undo",
+    "ESC Exit", "F8 Repl.", "F7 Del.line", "F9 To machine", "F10 Redraw",
 };
 
 static const char *const mark_labels[] = {

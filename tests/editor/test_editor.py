@@ -263,6 +263,23 @@ def test_a_terminal_that_tells_its_size_is_used_whole() -> None:
     at.close()
 
 
+def test_a_window_made_larger_and_smaller_is_redrawn(terminal: ScreenTerminal) -> None:
+    terminal.enter_program(PROGRAM)
+    terminal.edit()
+    for rows, columns in [(50, 200), (10, 30), (30, 100), (24, 80), (90, 250)]:
+        terminal.screen.resize(rows, columns)
+        terminal.key("\x1b[21~")  # F10 asks
+        terminal.key(f"\x1b[{rows};{columns}R")
+        keys(terminal, START, "\x1b[F")
+        assert terminal.rows()[0] == "PRINT 1 ' line"
+        assert terminal.rows()[min(rows - 3, 59)] == f"PRINT {min(rows - 2, 60)} ' line"
+        assert terminal.rows()[rows - 2].startswith(" Program")
+        assert terminal.cursor() == (0, 14)
+    keys(terminal, "x")
+    terminal.type(F1, LEFT_EDITOR)
+    assert terminal.listing() == PROGRAM.replace("line", "linex", 1)
+
+
 def test_bytes_that_are_no_characters_are_shown_as_question_marks(terminal) -> None:
     terminal.type("AUTOSAVE\r", b"\r\n")
     terminal.type(b"' a\xffb \xe4\xb8\xad \xf0\x9f\x98\x80 \xc3\xa4\r\x1a")
