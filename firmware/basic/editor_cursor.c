@@ -82,10 +82,10 @@ static void keep_top_before(size_t place) {
 bool editor_cursor_insert(const char *bytes, size_t count) {
     editor_cursor_t *cursor = &editor_cursor;
     size_t place = cursor->place;
+    keep_top_before(place);
     if (!editor_text_insert(place, bytes, count)) {
         return false;
     }
-    keep_top_before(place);
     editor_undo_inserted(place, count);
     cursor->modified = true;
     cursor->marking = false;

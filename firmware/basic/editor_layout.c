@@ -23,9 +23,9 @@
 #define COLUMNS_MOST 255u
 
 static struct {
-    uint8_t *end;       // of the cells
-    size_t cells;       // bytes they have
-    size_t cells_most;  // bytes they may have
+    uint8_t *end;      // of the cells
+    size_t cells;      // bytes they have
+    size_t cells_most; // bytes they may have
     unsigned rows, columns;
 } layout;
 

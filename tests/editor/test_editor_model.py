@@ -40,7 +40,7 @@ key = st.one_of(
 )
 
 
-@settings(max_examples=120, deadline=None, derandomize=True)
+@settings(max_examples=300, deadline=None, derandomize=True)
 @given(st.lists(key, min_size=1, max_size=60))
 def test_the_editor_does_what_the_model_does(terminal: ScreenTerminal, keys: list[str]) -> None:
     terminal.enter_program(TEXT)
