@@ -20,6 +20,14 @@ static char type_of_argument(const functions_row_t *function, unsigned index) {
     return function->types[index < last ? index : last];
 }
 
+static void compile_keyword(void) {
+    if (lexer_now()->kind != LEXER_NAME) {
+        errors_fail(ERR_SYNTAX);
+    }
+    emit_string(lexer_now()->text, lexer_now()->length);
+    lexer_next();
+}
+
 // A bare word, if it stands alone, means itself.
 static void compile_word_argument(void) {
     const lexer_token_t *token = lexer_now();
@@ -57,6 +65,9 @@ static void compile_argument(char type) {
         break;
     case 'd':
         expressions_compile_argument();
+        break;
+    case 'k':
+        compile_keyword();
         break;
     case 'w':
         compile_word_argument();
@@ -101,12 +112,14 @@ static void emit_call(int row, unsigned count) {
 // Arguments up to the closing parenthesis; returns how many.
 static unsigned compile_arguments(const functions_row_t *function) {
     unsigned count = 0;
+    char type = '\0'; // of the argument before
     expressions_enter(EXPRESSIONS_PARENTHESIS);
     while (!lexer_is(')')) {
-        if (count > 0) {
+        if (count > 0 && type != 'k') {
             lexer_expect(',');
         }
-        compile_argument(type_of_argument(function, count++));
+        type = type_of_argument(function, count++);
+        compile_argument(type);
     }
     expressions_leave(EXPRESSIONS_PARENTHESIS);
     lexer_expect(')');

@@ -85,7 +85,8 @@ const functions_row_t functions_table[] = {
     {"MM.ERRMSG$", "", 0, 0, functions_mm_errmsg, "MM.ERRMSG$: text of the last error"},
     {"MM.ERRNO", "", 0, 0, functions_mm_errno, "MM.ERRNO: 0 if there was no error"},
     {"MM.INFO", "(", 1, 1, NULL,
-     "MM.INFO(BOOT|CPUSPEED|DEVICE|DISK SIZE|ERRMSG|ERRNO|FREE SPACE|HEAP|LINE|PIN pin|PINNO pin|"
+     "MM.INFO(BOOT|CPUSPEED|DEVICE|DISK SIZE|ERRMSG|ERRNO|EXISTS FILE name$|EXISTS DIR name$|"
+     "FILESIZE name$|FREE SPACE|HEAP|LINE|PIN pin|PINNO pin|"
      "PROGRAM|UPTIME|VERSION)"},
     {"MM.INFO$", "(", 1, 1, NULL, NULL},
     {"MM.INFO(BOOT", "", 0, 0, functions_info_boot, NULL},
@@ -94,6 +95,8 @@ const functions_row_t functions_table[] = {
     {"MM.INFO(DISK", "w", 1, 1, functions_info_disk, NULL},
     {"MM.INFO(ERRMSG", "", 0, 0, functions_mm_errmsg, NULL},
     {"MM.INFO(ERRNO", "", 0, 0, functions_mm_errno, NULL},
+    {"MM.INFO(EXISTS", "ks", 2, 2, functions_info_exists, NULL},
+    {"MM.INFO(FILESIZE", "s", 1, 1, functions_info_filesize, NULL},
     {"MM.INFO(FREE", "w", 1, 1, functions_info_free, NULL},
     {"MM.INFO(HEAP", "", 0, 0, functions_info_heap, NULL},
     {"MM.INFO(LINE", "", 0, 0, functions_info_line, NULL},
@@ -153,6 +156,7 @@ static void convert(value_t *argument, char type) {
     case 'c':
         value_set_integer(argument, channels_number(argument));
         break;
+    case 'k':
     case 'w':
     case 's':
         if (argument->type != VALUE_STRING) {

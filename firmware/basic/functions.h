@@ -15,6 +15,7 @@ typedef struct {
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
     // n either number, s string, v any value, a a whole array, c number of a channel, d a value or a
     // whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or string,
+    // k a word without a comma behind it,
     // t the word NOW (VALUE_NONE) or any value, p a pin.
     // `(`: a family of functions whose keyword stands in the parentheses, rows "NAME(KEYWORD".
     const char *types;
@@ -117,6 +118,8 @@ FUNCTIONS_DECLARE(mm_watchdog)
 FUNCTIONS_DECLARE(info_boot)
 FUNCTIONS_DECLARE(info_cpuspeed)
 FUNCTIONS_DECLARE(info_disk)
+FUNCTIONS_DECLARE(info_exists)
+FUNCTIONS_DECLARE(info_filesize)
 FUNCTIONS_DECLARE(info_free)
 FUNCTIONS_DECLARE(info_heap)
 FUNCTIONS_DECLARE(info_line)

@@ -1,4 +1,4 @@
-// DIR$(), CWD$. Context: main loop.
+// DIR$(), CWD$, and what MM.INFO tells about files. Context: main loop.
 #include <string.h>
 
 #include "errors.h"
@@ -86,4 +86,24 @@ FUNCTION(cwd) {
     char path[FILES_PATH_MAX + 3] = "A:";
     strcat(path, files_folder());
     set_copy(result, path);
+}
+
+// FILE or DIR, and its name.
+FUNCTION(info_exists) {
+    (void)count;
+    bool is_file = lexer_same(arguments[0].text, arguments[0].length, "FILE");
+    if (!is_file && !lexer_same(arguments[0].text, arguments[0].length, "DIR")) {
+        errors_fail(ERR_SYNTAX);
+    }
+    files_entry_t entry;
+    bool found = files_info(file_names_path(&arguments[1]), &entry) == ERR_OK;
+    value_set_integer(result, found && entry.is_folder == !is_file);
+}
+
+// As in MMBasic: -1 if there is none, -2 for a folder.
+FUNCTION(info_filesize) {
+    (void)count;
+    files_entry_t entry;
+    bool found = files_info(file_names_path(&arguments[0]), &entry) == ERR_OK;
+    value_set_integer(result, !found ? -1 : entry.is_folder ? -2 : (int64_t)entry.size);
 }

@@ -281,3 +281,11 @@ OPEN "b.nc" FOR OUTPUT AS #1 : PRINT #1, "12345" : CLOSE
 OPEN "a.nc" FOR OUTPUT AS #1 : CLOSE
 ' (what FILES prints is tested with the prompt)
 CHDIR "/" : KILL "m/*", ALL : RMDIR "m/sub" : RMDIR "m"
+'--- MM.INFO about files
+MKDIR "m" : OPEN "m/f" FOR OUTPUT AS #1 : PRINT #1, "abc" : CLOSE
+PRINT MM.INFO(EXISTS FILE "m/f"); MM.INFO(EXISTS FILE "m"); MM.INFO(EXISTS FILE "x") '> 1 0 0
+n$ = "m" : PRINT MM.INFO(EXISTS DIR n$); MM.INFO(EXISTS DIR "m/f"); MM.INFO(EXISTS DIR "x") '> 1 0 0
+PRINT MM.INFO(FILESIZE "m/" + "f"); MM.INFO(FILESIZE "m"); MM.INFO(FILESIZE "x") '> 5-2-1
+KILL "m/f" : RMDIR "m"
+'--- MM.INFO about files of another kind
+PRINT MM.INFO(EXISTS LINK "m") '! Invalid syntax
