@@ -343,8 +343,8 @@ static bool is_time_for_exit(void) {
 // The next key to leave by what one Ctrl-C does not end: the editor (Esc does, when a question is
 // answered), a transfer in the middle of a block; '\0': there is none.
 static char next_exit(void) {
-    bool edits = find(peer.input.bytes, peer.input.length, "EDIT") != NULL;
-    bool transfers = find(peer.input.bytes, peer.input.length, "XMODEM") != NULL;
+    bool edits = find(peer.output, peer.output_length, "EDIT") != NULL; // a function key types it
+    bool transfers = find(peer.output, peer.output_length, "XMODEM") != NULL;
     const char *keys = edits       ? "\x1by\x1by"
                        : transfers ? "\x03\x03\x03\x03\x03\x03\x03\x03\x03"
                                    : "";
