@@ -21,11 +21,15 @@ static int limited(int64_t value, int least, int most) {
     return (int)value;
 }
 
-static void set_copy(value_t *result, const char *text, size_t length) {
+static char *new_text(size_t length) {
     if (length > VALUE_STRING_MAX) {
         errors_fail(ERR_STRING_TOO_LONG);
     }
-    char *copy = memory_text(length);
+    return memory_text(length);
+}
+
+static void set_copy(value_t *result, const char *text, size_t length) {
+    char *copy = new_text(length);
     memcpy(copy, text, length);
     value_set_text(result, copy, length);
 }
@@ -162,11 +166,13 @@ FUNCTION(format) {
     const value_t *format = count > 1 ? &arguments[1] : &general;
     specification_t how;
     read_specification(format, &how);
-    char text[VALUE_STRING_MAX + NUMBER_TEXT_SIZE + WIDTH_MAX + VALUE_STRING_MAX];
+    char number[NUMBER_TEXT_SIZE + WIDTH_MAX];
+    size_t length = lay_out(number, &how, arguments->number);
     size_t before = (size_t)(how.start - format->text);
     size_t after = format->length - (size_t)(how.end - format->text);
+    char *text = new_text(before + length + after);
     memcpy(text, format->text, before);
-    size_t used = before + lay_out(text + before, &how, arguments->number);
-    memcpy(text + used, how.end, after);
-    set_copy(result, text, used + after);
+    memcpy(text + before, number, length);
+    memcpy(text + before + length, how.end, after);
+    value_set_text(result, text, before + length + after);
 }
