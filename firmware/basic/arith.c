@@ -126,9 +126,7 @@ static void compare_numbers(code_op_t op, value_t *values) {
     if (values[0].type == VALUE_INTEGER && values[1].type == VALUE_INTEGER) {
         order = (values[0].integer > values[1].integer) - (values[0].integer < values[1].integer);
     } else {
-        double left = value_to_number(&values[0]);
-        double right = value_to_number(&values[1]);
-        order = (left > right) - (left < right);
+        order = value_order(value_to_number(&values[0]), value_to_number(&values[1]));
     }
     value_set_integer(values, order_matches(op, order));
 }

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 typedef enum {
     VALUE_FLOAT,       // number
@@ -68,6 +69,20 @@ int value_compare_text(const value_t *left, const value_t *right);
 
 // Makes `value` a STRING of these bytes.
 void value_set_text(value_t *value, const char *text, size_t length);
+
+// <0, 0, >0; for numbers that are no NaN. As integers the bits of two doubles stand in the order of the
+// numbers, or against it if both are negative, which spares a board half a hundred cycles.
+static inline int value_order(double left, double right) {
+    int64_t left_bits;
+    int64_t right_bits;
+    memcpy(&left_bits, &left, sizeof left_bits);
+    memcpy(&right_bits, &right, sizeof right_bits);
+    if ((left_bits ^ right_bits) < 0) { // -0 equals 0
+        return (left > right) - (left < right);
+    }
+    int order = (left_bits > right_bits) - (left_bits < right_bits);
+    return left_bits < 0 ? -order : order;
+}
 
 static inline void value_set_number(value_t *value, double number) {
     value->number = number;

@@ -147,8 +147,8 @@ static inline bool for_next(uint16_t variable, const value_t *pair) {
         }
         if (slot->type == VALUE_FLOAT) {
             slot->number += pair[1].number;
-            return signbit(pair[1].number) ? slot->number >= pair->number
-                                           : slot->number <= pair->number;
+            int order = value_order(slot->number, pair->number);
+            return signbit(pair[1].number) ? order >= 0 : order <= 0;
         }
     }
     return for_next_slowly(variable, pair);

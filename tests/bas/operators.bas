@@ -87,3 +87,14 @@ PRINT 0 ^ -1 '! Divide by zero
 PRINT 1 OR 2 XOR 3 AND 1 '> 0
 '--- a wrong type beside AND
 PRINT "a" AND 1 '! Incompatible types in expression
+'--- comparing floats of all signs
+PRINT 1.5 < 2.5; -1.5 < -2.5; -1.5 < 2.5; 1.5 < -2.5 '> 1 0 1 0
+PRINT 1.5 > 2.5; -1.5 > -2.5; -1.5 > 2.5; 1.5 > -2.5 '> 0 1 0 1
+PRINT -0.0 = 0.0; -0.0 < 0.0; -0.0 >= 0.0; 0.0 > -0.0 '> 1 0 1 0
+PRINT -1e-300 < 0.0; 0.0 < 1e-300; -1e300 < -1e-300; 1e300 > 1e-300 '> 1 1 1 1
+PRINT -2.5 = -2.5; -2.5 <> -2.5; 0.1 + 0.2 > 0.3; 1 = 1.0 '> 1 0 1 1
+'--- a FOR over floats ends where it should, both ways and through zero
+FOR x = -0.5 TO 0.5 STEP 0.25: PRINT x; : NEXT: PRINT "!" '>-0.5-0.25 0 0.25 0.5!
+FOR x = 0.5 TO -0.5 STEP -0.25: PRINT x; : NEXT: PRINT "!" '> 0.5 0.25 0-0.25-0.5!
+FOR x = -3.0 TO -1.0: PRINT x; : NEXT: PRINT "!" '>-3-2-1!
+FOR x = -1.0 TO -3.0 STEP -1: PRINT x; : NEXT: PRINT "!" '>-1-2-3!

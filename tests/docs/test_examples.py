@@ -26,7 +26,11 @@ PAGES = [
     "docs/basic.md",
 ]
 CTRL_Z = "\x1a"
-PROGRAMS = ("Programs", "Larger programs")  # headings of blocks that are typed as one program
+PROGRAMS = (
+    "Programs",
+    "Larger programs",
+    "Events",
+)  # headings of blocks that are typed as one program
 WAIT = "DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) = 0"
 
 
