@@ -78,3 +78,23 @@ def test_edit_saves_what_was_typed(editor: Emulator) -> None:
     editor.until("\r> ", 5000)
     editor.send("RUN\r")
     assert editor.until("\n> ").split()[1:4] == ["1", "2", "3"]
+
+
+@pytest.mark.parametrize(("command", "end"), [("AUTOSAVE", CTRL_Z), ("EDIT", CTRL_Q)])
+def test_a_paste_over_the_serial_port_loses_nothing(
+    board: Emulator, command: str, end: str
+) -> None:
+    """At 115200 baud without flow control, as it comes out of a USB converter."""
+    lines = [f"a = {k} ' {'x' * (k % 40)}" for k in range(200)]
+    text = "\r".join(lines) + "\r"
+    board.host_open(False)
+    board.send_uart(command + "\r")
+    board.run_ms(400)
+    board.send_uart(text)
+    board.run_ms(len(text) / 11.52 + 300)
+    board.send_uart(end)
+    board.run_ms(1000)
+    board.uart_output()
+    board.send_uart("LIST ALL\r")
+    board.run_ms(len(text) / 10 + 500)
+    assert board.uart_output().replace("\r", "").split("\n")[1:-1] == lines
