@@ -2,6 +2,7 @@
 // range checks, error texts, HELP and the reference page all come from here. Context: main loop.
 #include "basic_cmds/basic_cmds.h"
 
+#include "basic_cmds/com.h"
 #include "basic_cmds/configure.h"
 #include "basic_cmds/control.h"
 #include "basic_cmds/pin_values.h"
@@ -195,6 +196,8 @@ const basic_command_t basic_cmds_commands[] = {
     {"SETPIN", ARGS(setpin_counter_args), setpin_counter, "Counts at a pin"},
     {"SETPIN", ARGS(setpin_interrupt_args), setpin_interrupt, "Calls a SUB when a pin changes"},
     {"SETPIN", ARGS(setpin_pwm_args), setpin_pwm, "Gives a pin to its PWM slice"},
+    {"SETPIN", ARGS(com_setpin_args), com_setpin,
+     "Gives a serial port its pins, for OPEN \"COM1:9600\" AS #1"},
     {"OPTION PIN NUMBERS", ARGS(setpin_numbers_args), setpin_numbers,
      "Says what a bare number means where a pin is wanted; kept over power-off"},
     {"OPTION VCC", ARGS(setpin_vcc_args), setpin_vcc, "Sets the reference of analog inputs"},
@@ -228,12 +231,17 @@ const basic_assignment_t basic_cmds_assignments[] = {
 };
 const size_t basic_cmds_assignment_count = COUNT_OF_ARRAY(basic_cmds_assignments);
 
+const basic_device_t *const basic_cmds_devices[] = {&com_device};
+const size_t basic_cmds_device_count = COUNT_OF_ARRAY(basic_cmds_devices);
+
 void basic_cmds_clear(void) {
+    com_clear();
     setpin_clear();
 }
 
 void basic_cmds_background(void) {
     setpin_background();
+    com_background();
     if (stepper_next_event() == STEPPER_EVENT_ESTOP) {
         basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
     }

@@ -13,6 +13,9 @@ extern const size_t basic_cmds_function_count;
 extern const basic_assignment_t basic_cmds_assignments[];
 extern const size_t basic_cmds_assignment_count;
 
+extern const struct basic_device *const basic_cmds_devices[];
+extern const size_t basic_cmds_device_count;
+
 // A new program or RUN: what the last program made of pins is put back.
 void basic_cmds_clear(void);
 

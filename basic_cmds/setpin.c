@@ -1,6 +1,7 @@
 // SETPIN: what a pin is used for. Context: main loop.
 #include "basic_cmds/setpin.h"
 
+#include "basic_cmds/events.h"
 #include "io/io.h"
 
 #define OPTIONAL BASIC_ARG_OPTIONAL
@@ -77,40 +78,36 @@ const basic_arg_spec_t setpin_vcc_args[] = {
 
 // ---- Interrupts ----------------------------------------------------------------------------------
 
-#define INTERRUPTS 10
-#define FIRST_EVENT BASIC_EVENT_PRODUCT
-
 // Each is an event of the language; the pin's GPIO + 1, 0: free.
-static uint8_t interrupts[INTERRUPTS];
+static uint8_t interrupts[EVENTS_PINS_COUNT];
 
 static unsigned slot_of(unsigned gpio_plus_1) {
     unsigned slot = 0;
-    while (slot < INTERRUPTS && interrupts[slot] != gpio_plus_1) {
+    while (slot < EVENTS_PINS_COUNT && interrupts[slot] != gpio_plus_1) {
         slot++;
     }
     return slot;
 }
 
-// The pin has another use now.
-static void forget_interrupt(unsigned gpio) {
+void setpin_forget_interrupt(unsigned gpio) {
     unsigned slot = slot_of(gpio + 1);
-    if (slot < INTERRUPTS) {
+    if (slot < EVENTS_PINS_COUNT) {
         interrupts[slot] = 0;
-        basic_set_event(FIRST_EVENT + slot, 0);
+        basic_set_event(EVENTS_PINS + slot, 0);
     }
 }
 
 void setpin_background(void) {
     for (uint32_t changed = io_changed(); changed != 0; changed &= changed - 1) {
         unsigned slot = slot_of((unsigned)__builtin_ctz(changed) + 1);
-        if (slot < INTERRUPTS) {
-            basic_raise_event(FIRST_EVENT + slot);
+        if (slot < EVENTS_PINS_COUNT) {
+            basic_raise_event(EVENTS_PINS + slot);
         }
     }
 }
 
 void setpin_clear(void) {
-    for (unsigned slot = 0; slot < INTERRUPTS; slot++) {
+    for (unsigned slot = 0; slot < EVENTS_PINS_COUNT; slot++) {
         interrupts[slot] = 0;
     }
     io_reset();
@@ -128,7 +125,7 @@ static hal_pull_t pull_of(const basic_arg_t *arg) {
 
 static err_t with_new_use(const basic_arg_t *args, err_t err) {
     if (err == ERR_OK) {
-        forget_interrupt(gpio_of(args));
+        setpin_forget_interrupt(gpio_of(args));
     }
     return err;
 }
@@ -184,14 +181,14 @@ err_t setpin_interrupt(const basic_arg_t *args, size_t count) {
     static const hal_edge_t edges[] = {HAL_EDGE_RISING, HAL_EDGE_FALLING, HAL_EDGE_BOTH};
     unsigned gpio = gpio_of(args);
     unsigned slot = slot_of(gpio + 1);
-    slot = slot < INTERRUPTS ? slot : slot_of(0);
-    if (slot == INTERRUPTS) {
+    slot = slot < EVENTS_PINS_COUNT ? slot : slot_of(0);
+    if (slot == EVENTS_PINS_COUNT) {
         return err_raise(ERR_TOO_MANY_INTERRUPTS, NULL);
     }
     err_t err = io_set_interrupt(gpio, edges[args[1].integer], pull_of(&args[3]));
     if (err == ERR_OK) {
         interrupts[slot] = (uint8_t)(gpio + 1);
-        basic_set_event(FIRST_EVENT + slot, (basic_routine_t)args[2].integer);
+        basic_set_event(EVENTS_PINS + slot, (basic_routine_t)args[2].integer);
     }
     return err;
 }

@@ -32,6 +32,9 @@ err_t setpin_pwm(const basic_arg_t *args, size_t count);
 err_t setpin_numbers(const basic_arg_t *args, size_t count);
 err_t setpin_vcc(const basic_arg_t *args, size_t count);
 
+// The pin has another use now.
+void setpin_forget_interrupt(unsigned gpio);
+
 // For the background hook: raises the events of pins that changed.
 void setpin_background(void);
 

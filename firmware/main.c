@@ -29,6 +29,8 @@ static void start_basic(void) {
     config.function_count = basic_cmds_function_count;
     config.assignments = basic_cmds_assignments;
     config.assignment_count = basic_cmds_assignment_count;
+    config.devices = basic_cmds_devices;
+    config.device_count = basic_cmds_device_count;
     basic_start(&config);
 }
 

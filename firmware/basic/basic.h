@@ -133,6 +133,9 @@ enum {
     BASIC_EVENTS = 32
 };
 
+// The SUB of this name, for names that come in a string. Errors: there is none, or it has parameters.
+err_t basic_find_routine(basic_text_t name, basic_routine_t *routine);
+
 // Which SUB the event calls; 0: none, and an event that waits is forgotten.
 void basic_set_event(unsigned event, basic_routine_t routine);
 

@@ -59,15 +59,24 @@ void events_clear(void) {
     update_watch();
 }
 
-basic_routine_t events_routine(const char *name, size_t length) {
-    const symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, name, length);
+err_t basic_find_routine(basic_text_t name, basic_routine_t *routine) {
+    const symbols_t *symbol = symbols_find(SYMBOLS_ROUTINE, 0, name.text, name.length);
     if (symbol == NULL || symbol->routine->is_function) {
-        errors_fail(ERR_NO_USER_SUB);
+        return err_raise(ERR_NO_USER_SUB, "%s", "");
     }
     if (symbol->routine->parameters != 0) {
-        errors_fail_with(ERR_HAS_PARAMETERS, "%s", symbol->name);
+        return err_raise(ERR_HAS_PARAMETERS, "%s", symbol->name);
     }
-    return memory_handle(symbol);
+    *routine = memory_handle(symbol);
+    return ERR_OK;
+}
+
+basic_routine_t events_routine(const char *name, size_t length) {
+    basic_routine_t routine = 0;
+    if (basic_find_routine((basic_text_t){name, length}, &routine) != ERR_OK) {
+        errors_fail_raised();
+    }
+    return routine;
 }
 
 // ---- Setting and raising -------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include "io.h"
 #include "io_count.h"
 #include "io_pulse.h"
+#include "io_serial.h"
 #include "io_slices.h"
 #include "io_watch.h"
 
@@ -18,7 +19,7 @@ static const char *const owners[IO_PINS_USES] = {
     [IO_PINS_VOLTAGE] = "SETPIN AIN",   [IO_PINS_RAW] = "SETPIN ARAW",
     [IO_PINS_FREQUENCY] = "SETPIN FIN", [IO_PINS_PERIOD] = "SETPIN PIN",
     [IO_PINS_COUNTER] = "SETPIN CIN",   [IO_PINS_INTERRUPT] = "SETPIN INT",
-    [IO_PINS_PWM] = "SETPIN PWM",
+    [IO_PINS_PWM] = "SETPIN PWM",       [IO_PINS_SERIAL] = "SETPIN COM",
 };
 
 io_pins_use_t io_pins_use(unsigned gpio) {
@@ -51,6 +52,9 @@ static void end_use(unsigned gpio) {
         break;
     case IO_PINS_PWM:
         io_slices_remove(gpio);
+        break;
+    case IO_PINS_SERIAL:
+        io_serial_forget(gpio);
         break;
     default:
         break;

@@ -1,4 +1,4 @@
-"""The pins of a BASIC program on the emulated board: what comes out, what is counted, at what cost."""
+"""The pins of a BASIC program on the board: what comes out, what is counted, at what cost."""
 
 from pathlib import Path
 
@@ -94,7 +94,7 @@ def test_pwm(board: Emulator, hz: int, duty: float) -> None:
 
 
 def test_pwm_registers(board: Emulator) -> None:
-    """What the emulator does not make edges of: both outputs, inversion, phase, and a common start."""
+    """What the emulator makes no edges of: both outputs, inversion, phase, a common start."""
     base = 0x40050000
     obey(board, "SETPIN GP4,PWM", "SETPIN GP5,PWM", "SETPIN GP0,PWM0A")
     obey(board, "PWM 2,1000,10,-20,1,1", "PWM 0,2000,50,,,1")
@@ -204,7 +204,7 @@ ZIGZAG = [f"STEPPER GC G0 X{40 * (i % 2)} Y{3 * i}" for i in range(4)]
 
 
 def train_of(uf2: Path, events: Path | None) -> tuple[list, float]:
-    """Edges of a job by tick, and the greatest delay of one (ns), while a program watches two pins."""
+    """Edges of a job by tick, and the latest of them (ns), while a program watches two pins."""
     with Emulator(uf2) as board:
         board.connect()
         board.until("> ")

@@ -1,4 +1,4 @@
-"""Pins of a BASIC program on the host, with events from outside: inputs, voltages, interrupts, traces."""
+"""Pins of a BASIC program on the host, with events from outside: levels, voltages, the trace."""
 
 from __future__ import annotations
 
@@ -165,7 +165,8 @@ STEPPER GC G1 X10 F3000
 STEPPER RUN
 DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) = 0
 """
-    pwm = "SETPIN GP8, PWM : PWM 4, 20000, 40 : SETPIN GP9, FIN, 10 : SETPIN GP10, DOUT : PULSE GP10, 50"
+    pwm = "SETPIN GP8, PWM : PWM 4, 20000, 40 : SETPIN GP9, FIN, 10"
+    pwm += " : SETPIN GP10, DOUT : PULSE GP10, 50"
     trains = []
     for folder, extra in (("plain", ""), ("busy", pwm)):
         (tmp_path / folder).mkdir()

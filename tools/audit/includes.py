@@ -50,6 +50,8 @@ ALLOWED: dict[str, list[str]] = {
 ALSO_FACES = {
     "firmware/hal/pins.h",
     "firmware/hal/hal_io.h",
+    "firmware/hal/hal_serial.h",
+    "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",
 }
 

@@ -37,6 +37,8 @@ LEVELS = [
         "usb_irq",
         "uart_irq",
         "on_edge",
+        "irq_0",
+        "irq_1",
         "hardware_alarm_irq_handler",
         "alarm_pool_irq_handler",
     ],

@@ -4,6 +4,7 @@
 #include "hal/hal.h"
 #include "host_alarm.h"
 #include "host_inputs.h"
+#include "host_serial.h"
 #include "host_tick.h"
 
 static uint64_t clock_now_ns;
@@ -24,7 +25,9 @@ uint64_t hal_time_us(void) {
 static uint64_t next_other_ns(void) {
     uint64_t input_ns = host_inputs_next_ns();
     uint64_t alarm_ns = host_alarm_next_ns();
-    return input_ns < alarm_ns ? input_ns : alarm_ns;
+    uint64_t serial_ns = host_serial_next_ns();
+    uint64_t next_ns = input_ns < alarm_ns ? input_ns : alarm_ns;
+    return next_ns < serial_ns ? next_ns : serial_ns;
 }
 
 uint64_t host_clock_next_event_ns(void) {
@@ -33,11 +36,15 @@ uint64_t host_clock_next_event_ns(void) {
     return tick_ns < other_ns ? tick_ns : other_ns;
 }
 
-// The input edge or the alarm that is due at `now_ns`. True: something for the main loop to see.
+// The input edge, the received byte or the alarm that is due at `now_ns`. True: something for the main loop to see.
 static bool run_other(uint64_t now_ns) {
     clock_now_ns = now_ns;
     if (host_inputs_next_ns() <= now_ns) {
         host_inputs_apply(now_ns);
+        return true;
+    }
+    if (host_serial_next_ns() <= now_ns) {
+        host_serial_notice(now_ns);
         return true;
     }
     host_alarm_run();

@@ -8,6 +8,8 @@
 
 #include "rp2_port.h"
 
+#define UART_ITSELF (1u << 31) // a program has the UART, on whatever pins
+
 static uint32_t taken_from_uart; // the UART's pins that serve as plain ones now
 
 static void take(unsigned gpio) {
@@ -15,6 +17,22 @@ static void take(unsigned gpio) {
         taken_from_uart |= pins_mask(gpio);
         rp2_uart_stop();
     }
+}
+
+void rp2_pins_take_uart(void) {
+    taken_from_uart |= UART_ITSELF;
+    rp2_uart_stop();
+}
+
+static void give_back(uint32_t mask) {
+    taken_from_uart &= ~mask;
+    if (taken_from_uart == 0) {
+        rp2_uart_start();
+    }
+}
+
+void rp2_pins_give_uart_back(void) {
+    give_back(UART_ITSELF);
 }
 
 void hal_pin_output(unsigned gpio, bool level) {
@@ -48,9 +66,6 @@ void hal_pin_release(unsigned gpio) {
     gpio_disable_pulls(gpio);
     gpio_set_function(gpio, GPIO_FUNC_NULL);
     if (rp2_uart_has_pin(gpio)) {
-        taken_from_uart &= ~pins_mask(gpio);
-        if (taken_from_uart == 0) {
-            rp2_uart_start();
-        }
+        give_back(pins_mask(gpio));
     }
 }

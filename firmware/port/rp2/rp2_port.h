@@ -75,6 +75,10 @@ size_t rp2_uart_write_room(void);
 // True if `gpio` is one of the console's two pins.
 bool rp2_uart_has_pin(unsigned gpio);
 
+// A program takes the console's UART for a port of its own, and gives it back.
+void rp2_pins_take_uart(void);
+void rp2_pins_give_uart_back(void);
+
 // ---- USB console ----------------------------------------------------------------------------------
 
 void rp2_usb_start(void);
