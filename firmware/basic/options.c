@@ -134,10 +134,14 @@ static void apply(void) {
 
 // A file that is not there, or cannot be read, leaves everything as it is at first.
 void options_start(const basic_config_t *config) {
+    options.config = config;
+    options_restart();
+}
+
+void options_restart(void) {
     char text[TEXT_SIZE];
     int file;
     size_t got = 0;
-    options.config = config;
     options.text[0] = '\0';
     if (files_open(OPTIONS_FILE, FILES_READ, &file) == ERR_OK) {
         files_read(file, text, sizeof text - 1, &got);

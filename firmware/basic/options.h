@@ -21,6 +21,9 @@ typedef enum {
 // Reads the file and lets the settings take effect.
 void options_start(const basic_config_t *config);
 
+// The same when the file is another one, or gone.
+void options_restart(void);
+
 int64_t options_get(options_t option);
 
 // Keeps a setting, and lets it take effect. Errors: as files_replace(); nothing has changed then.

@@ -34,6 +34,8 @@ const statements_row_t statements_table[] = {
      "Declares variables and arrays"},
     {"DO", statements_do, "DO [WHILE|UNTIL condition] ... LOOP [WHILE|UNTIL condition]", "Repeats"},
     {"EDIT", statements_edit, "EDIT [file$]", "Edits the program, or a file, on the whole screen"},
+    {"DRIVE", statements_drive, "DRIVE \"A:/FORMAT\"",
+     "Deletes all files, options and saved variables; the program stays"},
     {"ELSE", statements_else, NULL, NULL},
     {"ELSEIF", statements_elseif, NULL, NULL},
     {"END", statements_end, "END [NOEND]", "Ends the program; NOEND: without its SUB MM.END"},

@@ -97,3 +97,14 @@ def test_a_damaged_option_costs_no_more_than_itself(tmp_path: Path) -> None:
     session(f'{program}:PRINT #1,"BREAK=99999":CLOSE\r', "--flash", str(image))
     assert answers("OPTION LIST\rPRINT 5\r", "--flash", str(image))[-1] == " 5"
     assert answers("OPTION TAB 8\rOPTION LIST\r", "--flash", str(image))[0] == "OPTION TAB 8"
+
+
+def test_format(tmp_path: Path) -> None:
+    flash = ("--flash", str(tmp_path / "flash.bin"))
+    session(stored("PRINT 11") + 'SAVE "x"\rOPTION TAB 4\rv=5:VAR SAVE v\r', *flash)
+    assert answers('DRIVE "A:/NONSENSE"\r', *flash) == ["Error : Not a file name: A:/NONSENSE"]
+    typed = 'DRIVE "A:"\rDRIVE "a:/format"\rOPTION LIST\rVAR RESTORE:?v\rRUN\rLOAD "x"\r'
+    assert answers(typed, *flash) == [" 0", " 11", "Error : File not found: /x.bas"]
+    assert answers('OPTION LIST\rSAVE "y"\rLOAD "y",R\r', *flash) == [" 11"]
+    assert shown(MOVING + 'PRINT 0\rDRIVE "A:/FORMAT"\r') == [BUSY]
+    assert shown(stored('DRIVE "A:/FORMAT"') + "PRINT 0\rRUN\r")[-1] == "Error : Only at the prompt"
