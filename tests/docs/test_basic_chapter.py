@@ -1,8 +1,8 @@
 """Every program of docs/basic.md prints what the page says it prints, on the host program.
 
 A `basic` block is a whole program; a `text` block behind it is all it prints. Blocks with prompts
-are one session in their order; what stands between two prompts is the answer, without one any answer
-will do that is no error.
+are one session in their order; what stands between two prompts is the answer, without one any
+answer will do that is no error.
 """
 
 from __future__ import annotations
