@@ -4,6 +4,7 @@
 #include "actions.h"
 #include "code.h"
 #include "errors.h"
+#include "escapes.h"
 #include "memory.h"
 #include "number_text.h"
 #include "variables.h"
@@ -63,10 +64,21 @@ static void go_to_next(void) {
 static unsigned item_end(const uint8_t *text, unsigned offset, unsigned length) {
     bool quoted = false;
     while (offset < length && (quoted || text[offset] != ',')) {
+        bool escape = quoted && vm.escapes && text[offset] == '\\' && offset + 1 < length;
         quoted ^= text[offset] == '"';
-        offset++;
+        offset += escape ? 2 : 1;
     }
     return offset;
+}
+
+// A quoted text, after OPTION ESCAPE without its escapes.
+static void set_quoted(value_t *item, const char *text, size_t length) {
+    if (vm.escapes) {
+        char *replaced = memory_text(length);
+        length = escapes_replace(replaced, text, length);
+        text = replaced;
+    }
+    value_set_text(item, text, length);
 }
 
 static value_t next_item(bool *quoted) {
@@ -88,13 +100,15 @@ static value_t next_item(bool *quoted) {
     while (end > start && text[end - 1] == ' ') {
         end--;
     }
+    value_t item;
     *quoted = start < end && text[start] == '"';
     if (*quoted) {
         start++;
         end -= end > start && text[end - 1] == '"';
+        set_quoted(&item, (const char *)text + start, end - start);
+    } else {
+        value_set_text(&item, (const char *)text + start, end - start);
     }
-    value_t item;
-    value_set_text(&item, (const char *)text + start, end - start);
     return item;
 }
 

@@ -10,6 +10,10 @@ OPTION ESCAPE
 a$ = "\x41"
 OPTION ESCAPE OFF
 PRINT a$; "\x41" '>A\x41
+'--- OPTION ESCAPE in DATA
+OPTION ESCAPE
+READ a$, b$, c$ : PRINT a$; "|"; b$; "|"; c$ '>a"b,c|A|\n
+DATA "a\"b,c", "\x41", \n
 '--- an unknown escape
 OPTION ESCAPE
 PRINT "\z" '! Unknown escape \z
