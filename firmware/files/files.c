@@ -403,6 +403,12 @@ err_t files_remove(const char *path) {
     return error != ERR_OK ? error : volume_write(do_remove, &call, NULL);
 }
 
+// littlefs would make a folder that is moved into itself, with all in it, unreachable.
+static err_t check_movable(const char *folder, const char *to) {
+    bool used = path_is_inside(to, folder) || path_is_inside(files_folder(), folder);
+    return used ? err_raise(ERR_FOLDER_IN_USE, "%s", folder) : ERR_OK;
+}
+
 err_t files_rename(const char *from, const char *to) {
     files_path_t old, new;
     files_entry_t entry;
@@ -411,6 +417,11 @@ err_t files_rename(const char *from, const char *to) {
         error = path_resolve(to, &new);
     }
     if (error == ERR_OK) {
+        error = files_info(from, &entry);
+    }
+    if (error == ERR_OK && entry.is_folder) {
+        error = check_movable(old.text, new.text);
+    } else if (error == ERR_OK) {
         error = check_unused(old.text);
     }
     if (error == ERR_OK && files_info(to, &entry) == ERR_OK) {

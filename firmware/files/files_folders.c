@@ -55,10 +55,7 @@ err_t files_remove_folder(const char *path) {
     if (error == ERR_OK && !entry.is_folder) {
         error = err_raise(ERR_NOT_A_FOLDER, "%s", place.text);
     }
-    size_t length = strlen(place.text);
-    bool stands_there = strncmp(files_folder(), place.text, length) == 0 &&
-                        (files_folder()[length] == '\0' || files_folder()[length] == '/');
-    if (error == ERR_OK && (place.text[1] == '\0' || stands_there)) {
+    if (error == ERR_OK && path_is_inside(files_folder(), place.text)) {
         error = err_raise(ERR_FOLDER_IN_USE, "%s", place.text);
     }
     volume_call_t call = {.path = place.text};

@@ -74,6 +74,13 @@ err_t path_resolve(const char *path, files_path_t *out) {
     return good ? ERR_OK : err_raise(ERR_FILE_BAD_NAME, "%s", path);
 }
 
+bool path_is_inside(const char *path, const char *inside) {
+    size_t length = strlen(inside);
+    bool root = length == 1;
+    return strncmp(path, inside, length) == 0 &&
+           (root || path[length] == '\0' || path[length] == '/');
+}
+
 err_t files_change_folder(const char *path) {
     files_path_t to;
     files_entry_t entry;

@@ -11,4 +11,7 @@ typedef struct {
 // Error: no name that can be.
 err_t path_resolve(const char *path, files_path_t *out);
 
+// Both absolute: `path` is this folder or somewhere in it.
+bool path_is_inside(const char *path, const char *folder);
+
 #endif

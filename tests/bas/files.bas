@@ -289,3 +289,13 @@ PRINT MM.INFO(FILESIZE "m/" + "f"); MM.INFO(FILESIZE "m"); MM.INFO(FILESIZE "x")
 KILL "m/f" : RMDIR "m"
 '--- MM.INFO about files of another kind
 PRINT MM.INFO(EXISTS LINK "m") '! Invalid syntax
+'--- a folder cannot be moved into itself, nor from under the program's feet
+MKDIR "m" : MKDIR "m/n" : OPEN "m/n/f" FOR OUTPUT AS #1 : CLOSE
+ON ERROR IGNORE
+RENAME "m" AS "m/n/o" : PRINT MM.ERRMSG$ '>The folder is not empty or in use: /m
+RENAME "/" AS "r" : PRINT MM.ERRMSG$ '>The folder is not empty or in use: /
+CHDIR "m/n" : RENAME "/m" AS "/r" : PRINT MM.ERRMSG$ '>The folder is not empty or in use: /m
+CHDIR "/" : ON ERROR ABORT
+RENAME "m" AS "mm" : RENAME "mm/n" AS "n"
+PRINT DIR$("n/*") '>f
+KILL "n/f" : RMDIR "n" : RMDIR "mm"
