@@ -42,7 +42,10 @@ def test_programs_files_options_and_variables_survive_a_restart(board: Emulator)
     line(board, "VAR RESTORE")
     assert line(board, "PRINT a(50);s$") == " 2.5text"
     line(board, 'n=0:OPEN "log.txt" FOR INPUT AS #1')
-    assert line(board, "DO:LINE INPUT #1,l$:n=n+1:LOOP UNTIL EOF(1):CLOSE:PRINT n;l$") == " 300line 300"
+    assert (
+        line(board, "DO:LINE INPUT #1,l$:n=n+1:LOOP UNTIL EOF(1):CLOSE:PRINT n;l$")
+        == " 300line 300"
+    )
     assert line(board, 'LOAD "first",R') == "first"
     board.send("CPU RESTART\r")
     board.connect(3000)

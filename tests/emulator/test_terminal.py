@@ -45,6 +45,36 @@ def test_a_program_goes_on_while_no_terminal_is_there(board: Emulator) -> None:
     assert board.command("PRINT 6*7").split()[-1] == "42"
 
 
+def test_a_program_goes_on_while_the_cable_is_out(board: Emulator) -> None:
+    """The board has power from elsewhere; it moves a pin all the time."""
+    board.command("SETPIN GP15, DOUT")
+    board.send("DO: n% = n% + 1: PIN(GP15) = n% AND 1: PRINT n%: PAUSE 10: LOOP\r")
+    board.run_ms(100)
+    board.unplug()
+    board.run_ms(20)
+    board.clear_edges()
+    board.run_ms(2000)
+    assert 170 < len(board.edges([15])) < 230
+    board.plug()
+    board.connect()
+    board.output()
+    board.run_ms(100)
+    shown = board.output()
+    assert 190 < int(shown[shown.index("\n") :].split()[0]) < 260
+    board.send(CTRL_C)
+    board.until("> ")
+    assert board.command("PRINT 6*7").split()[-1] == "42"
+
+
+def test_the_prompt_comes_back_with_the_cable(board: Emulator) -> None:
+    for _ in range(3):
+        board.unplug()
+        board.run_ms(50)
+        board.plug()
+        board.connect()
+        assert board.command("PRINT 6*7").split()[-1] == "42"
+
+
 def test_a_terminal_that_comes_late_finds_the_prompt(board: Emulator) -> None:
     board.host_open(False)
     board.run_ms(50)

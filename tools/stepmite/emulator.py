@@ -185,6 +185,14 @@ class Emulator:
         """Off: the USB host stops collecting what the board sends."""
         self.request("host_reading", on=on)
 
+    def unplug(self) -> None:
+        """Take the USB cable out; the board goes on, as with power from elsewhere."""
+        self.request("unplug")
+
+    def plug(self) -> None:
+        """Put the cable in again. `connect` waits until the port is open."""
+        self.request("plug")
+
     def host_open(self, opened: bool, *, rts: bool | None = None) -> None:
         """Set or clear DTR (and RTS: the same if not said), as a program does with the port."""
         self.request("host_open", dtr=opened, rts=opened if rts is None else rts)

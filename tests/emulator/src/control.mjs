@@ -35,6 +35,8 @@ const operations = {
         return { text };
     },
     host_reading({ on }) { board.chip.usb.setReading(on); },
+    unplug() { board.chip.usb.unplug(); },
+    plug() { board.chip.usb.plug(); },
     host_open({ dtr, rts }) { board.chip.usb.setLineState(dtr, rts); },
     line_coding({ baud }) { board.chip.usb.setLineCoding(baud); },
     queued() { return { bytes: board.chip.usb.queue.length }; },

@@ -1,7 +1,7 @@
 // The USB host on the other end of the cable: enumerates the board, opens its first CDC serial port and moves bytes
 // both ways with the flow control of the bus: a buffer the host does not collect or fill stays armed, so nothing is
 // lost and an idle line costs the firmware nothing. One packet takes PACKET_NANOS, a frame starts every millisecond.
-// No suspend, no errors on the wire.
+// An unplugged cable looks to the chip, which has power from elsewhere, like a bus that is idle: suspended. No errors on the wire.
 // Source: RP2040 data sheet 4.1 (buffer control), USB 2.0 chapter 9, CDC PSTN 1.2.
 
 const ATTACH_NANOS = 10e6, SETTLE_NANOS = 1e6, PACKET_NANOS = 50e3, FRAME_NANOS = 1e6;
@@ -9,6 +9,7 @@ const PACKET_SIZE = 64;
 const BUFFER = { AVAILABLE: 1 << 10, STALL: 1 << 11, FULL: 1 << 15, LENGTH: 0x3ff };
 const EP_DOUBLE_BUFFERED = 1 << 30, SIE_PULLUP = 1 << 16;
 const SOF_RD = 0x48, INTR_SOF = 1 << 17;
+const SIE_STATUS = 0x50, SIE_SUSPENDED = 1 << 4, SUSPEND_NANOS = 3e6;
 const FIRST_BUFFER_CONTROL = 0x80, LAST_BUFFER_CONTROL = 0xfc;
 const DESCRIPTOR = { DEVICE: 1, CONFIGURATION: 2, INTERFACE: 4, ENDPOINT: 5 };
 const CLASS_CDC = 2, CLASS_DATA = 10, BULK = 2;
@@ -43,12 +44,14 @@ export class UsbHost {
         this.port = null;
         this.connected = false;
         this.attached = false;
+        this.plugged = true;
         this.reading = true;
         this.queue = [];      // bytes for the board
         this.armed = new Map(); // buffer control offset -> alarm of the packet under way or waiting
         this.requests = [];   // control transfers to do, first one under way
         this.settle = clock.createAlarm(() => this.enumerate());
         this.frame = clock.createAlarm(() => this.startFrame());
+        this.idle = clock.createAlarm(() => this.suspend());
         this.install();
     }
 
@@ -70,6 +73,11 @@ export class UsbHost {
             if (offset === SOF_RD) this.setFrameInterrupt(false); // reading it acknowledges
             return read(offset);
         };
+        const write = usb.writeUint32.bind(usb);
+        usb.writeUint32 = (offset, value) => {
+            if (offset === SIE_STATUS) usb.sieStatus &= ~(usb.rawWriteValue & SIE_SUSPENDED); // acknowledges the interrupt
+            write(offset, value);
+        };
         usb.DPRAMUpdated = (offset, value) => {
             if (offset >= FIRST_BUFFER_CONTROL && offset <= LAST_BUFFER_CONTROL) this.bufferWritten(offset, value);
         };
@@ -78,7 +86,7 @@ export class UsbHost {
     startFrame() {
         this.usb.sofFrameNumber = (this.usb.sofFrameNumber + 1) & 0x7ff;
         this.setFrameInterrupt(true);
-        if (this.attached) this.frame.schedule(FRAME_NANOS);
+        if (this.attached && this.plugged) this.frame.schedule(FRAME_NANOS);
     }
 
     setFrameInterrupt(on) {
@@ -149,7 +157,7 @@ export class UsbHost {
     // Starts the packet of an armed buffer if the host has a use for it.
     go(offset, endpoint, output) {
         const alarm = this.armed.get(offset);
-        if (alarm === undefined || alarm.scheduled) return;
+        if (alarm === undefined || alarm.scheduled || !this.plugged) return;
         const serial = this.port !== null && endpoint === (output ? this.port.out : this.port.in);
         if (serial && (output ? this.queue.length === 0 : !this.reading)) return;
         alarm.schedule(PACKET_NANOS);
@@ -209,6 +217,28 @@ export class UsbHost {
     send(bytes) {
         for (const byte of bytes) this.queue.push(byte);
         this.pump();
+    }
+
+    // Takes the cable out: what the board has not sent stays in its buffers. The host forgets what it had for the board.
+    unplug() {
+        this.plugged = this.connected = false;
+        this.port = null;
+        this.queue = [];
+        this.requests = [];
+        this.armed.forEach((alarm) => alarm.cancel());
+        this.idle.schedule(SUSPEND_NANOS);
+    }
+
+    suspend() {
+        if (this.plugged) return;
+        this.usb.sieStatus |= SIE_SUSPENDED;
+        this.usb.sieStatusUpdated();
+    }
+
+    // Puts it in again: the host resets the bus and enumerates the board anew.
+    plug() {
+        this.plugged = true;
+        this.usb.resetAlarm.schedule(ATTACH_NANOS);
     }
 
     setReading(on) {
