@@ -93,8 +93,10 @@ static bool take_form(const char *field, hal_serial_t *serial) {
         uint8_t data_bits, stop_bits;
         int8_t parity;
     } forms[] = {
-        {"7BIT", 7, 0, -1}, {"8BIT", 8, 0, -1},
-        {"S1", 0, 1, -1},   {"S2", 0, 2, -1},
+        {"7BIT", 7, 0, -1},
+        {"8BIT", 8, 0, -1},
+        {"S1", 0, 1, -1},
+        {"S2", 0, 2, -1},
         {"NONE", 0, 0, HAL_PARITY_NONE},
         {"EVEN", 0, 0, HAL_PARITY_EVEN},
         {"ODD", 0, 0, HAL_PARITY_ODD},
@@ -163,7 +165,8 @@ static err_t take_fields(basic_text_t text, request_t *request) {
 static err_t open(basic_text_t text, basic_device_mode_t mode, int *handle) {
     (void)mode; // a port goes both ways
     int64_t number = text.length > 3 ? text.text[3] - '0' : 0;
-    if (number < 1 || number > (int64_t)HAL_SERIAL_PORTS || (text.length > 4 && text.text[4] != ':')) {
+    if (number < 1 || number > (int64_t)HAL_SERIAL_PORTS ||
+        (text.length > 4 && text.text[4] != ':')) {
         return err_raise(ERR_ARGUMENT, "%.*s is no port (valid is COM1, COM2)", (int)text.length,
                          text.text);
     }

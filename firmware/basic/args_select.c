@@ -48,18 +48,22 @@ static bool has_name(int row, const char *name) {
 }
 
 // The words of all rows with this name, in the order of the rows, "A, B, C"; dots where the buffer
-// ends. Returns the first place in the list of arguments where one of them is expected.
-static size_t list_words(int row, char *buffer, size_t size) {
+// ends. Returns the row whose word stands first among the arguments.
+static const basic_command_t *list_words(int row, char *buffer, size_t size) {
     const char *name = args_command((unsigned)row)->name;
     size_t used = 0;
     size_t place = SIZE_MAX;
+    const basic_command_t *first = NULL;
     while (row > 0 && has_name(row - 1, name)) {
         row--;
     }
     for (; args_is_command(row) && has_name(row, name); row++) {
         const basic_command_t *command = args_command((unsigned)row);
         size_t index = (size_t)(selector_of(command) - command->args);
-        place = index < place ? index : place;
+        if (index < place) {
+            place = index;
+            first = command;
+        }
         if (used < size - 1) {
             used += used > 0 ? format_text(buffer + used, size - used, "%s", ", ") : 0;
             choices_list(command->args[index].choices, buffer + used, size - used);
@@ -69,21 +73,21 @@ static size_t list_words(int row, char *buffer, size_t size) {
     if (used + 4 > size) {
         memcpy(buffer + size - 4, "...", 4);
     }
-    return place;
+    return first;
 }
 
 // Only when each of the rows has an argument that selects it.
 static _Noreturn void fail_selection(int row, const char *start) {
-    const basic_command_t *command = args_command((unsigned)row);
-    const char *argument = selector_of(command)->name;
     char words[100];
-    go_to_argument(start, list_words(row, words, sizeof words));
+    const basic_command_t *command = list_words(row, words, sizeof words);
+    const basic_arg_spec_t *selector = selector_of(command);
+    go_to_argument(start, (size_t)(selector - command->args));
     if (lexer_at_end() || lexer_is(',')) {
-        errors_fail_with(ERR_ARGUMENTS_MISSING, "%s", argument);
+        errors_fail_with(ERR_ARGUMENTS_MISSING, "%s", selector->name);
     }
     const lexer_token_t *word = lexer_now();
-    errors_fail_with(ERR_ARGUMENT, "%s: %.*s is invalid (valid is %s)", argument, (int)word->length,
-                     word->text, words);
+    errors_fail_with(ERR_ARGUMENT, "%s: %.*s is invalid (valid is %s)", selector->name,
+                     (int)word->length, word->text, words);
 }
 
 int args_select_row(int row, const char *start) {

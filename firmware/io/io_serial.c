@@ -75,7 +75,8 @@ void io_serial_forget(unsigned gpio) {
             continue;
         }
         io_serial_close(port);
-        ports[port].receive_gpio = ports[port].send_gpio = 0; // so the other one finds nothing to forget
+        ports[port].receive_gpio = ports[port].send_gpio =
+            0; // so the other one finds nothing to forget
         io_set_off(gpio + 1 == receive_gpio ? send_gpio - 1 : receive_gpio - 1);
     }
 }

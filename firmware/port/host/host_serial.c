@@ -14,8 +14,8 @@ static struct {
     ring_t wire;
     uint8_t bytes[WIRE_SIZE];
     uint64_t arrives_ns[WIRE_SIZE];
-    uint64_t last_ns; // when the last byte has been sent
-    uint64_t byte_ns; // 0: the port is closed
+    uint64_t last_ns;    // when the last byte has been sent
+    uint64_t byte_ns;    // 0: the port is closed
     uint64_t noticed_ns; // what arrived up to here has been told
     size_t receive_size;
 } ports[HAL_SERIAL_PORTS];
@@ -95,7 +95,8 @@ uint64_t host_serial_next_ns(void) {
     uint64_t next_ns = HOST_CLOCK_NEVER;
     for (unsigned port = 0; port < HAL_SERIAL_PORTS; port++) {
         size_t slot = ports[port].wire.take_slot;
-        for (size_t left = ring_used(&ports[port].wire); left > 0 && ports[port].byte_ns != 0; left--) {
+        for (size_t left = ring_used(&ports[port].wire); left > 0 && ports[port].byte_ns != 0;
+             left--) {
             uint64_t arrives_ns = ports[port].arrives_ns[slot];
             if (arrives_ns > ports[port].noticed_ns) {
                 next_ns = arrives_ns < next_ns ? arrives_ns : next_ns;
