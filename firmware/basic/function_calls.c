@@ -16,8 +16,11 @@
 
 // What the `index`th argument has to be, see functions.h.
 static char type_of_argument(const functions_row_t *function, unsigned index) {
-    size_t last = strlen(function->types) - 1;
-    return function->types[index < last ? index : last];
+    size_t count = strlen(function->types);
+    if (count == 0) {
+        errors_fail(ERR_ARGUMENT_COUNT);
+    }
+    return function->types[index < count ? index : count - 1];
 }
 
 static void compile_keyword(void) {

@@ -59,3 +59,5 @@ PRINT MM.INFO(NOTHING) '! Unknown MM.INFO subcommand
 PRINT MM.INFO(FREE BEER) '! Invalid syntax
 '--- MM.INFO about no pin
 PRINT MM.INFO(PIN GP99) '! Invalid pin GP99 for pin
+'--- MM.INFO of a word that takes nothing more
+PRINT MM.INFO(UPTIME 3) '! Argument count
