@@ -124,6 +124,13 @@ WHILE a < 2
   a = a + 1
 WEND
 PRINT a '> 2
+'--- DO without LOOP
+PRINT 1 '> 1
+DO '! Cannot find a matching LOOP
+'--- SELECT CASE without its end
+SELECT CASE 5 '! Cannot find a matching END SELECT
+CASE 5
+  PRINT "no"
 '--- LOOP alone
 LOOP '! LOOP without a matching DO
 '--- EXIT FOR outside

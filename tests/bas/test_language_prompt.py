@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+from pathlib import Path
+
 import pytest
-from test_prompt import CTRL_Z, answers
+from test_prompt import CTRL_Z, PROGRAM, TIMEOUT_S, answers
 
 
 def program(*lines: str) -> str:
@@ -82,3 +85,27 @@ def test_a_thousand_variables_of_one_program() -> None:
 def test_a_line_as_long_as_may_be() -> None:
     sums = "?" + "+".join(["1"] * 127)
     assert answers(program(sums + " "))[-1] == " 127"
+
+
+def test_input_that_does_not_come_is_an_error() -> None:
+    """Only where the terminal is a file: on a board INPUT waits."""
+    assert answers("INPUT a\r")[-1] == "Error : End of input"
+
+
+def test_a_damaged_program_is_ignored_with_a_word(tmp_path: Path) -> None:
+    image = tmp_path / "flash.bin"
+    answers(f"AUTOSAVE\rPRINT 11\r{CTRL_Z}", "--flash", str(image))
+    flash = bytearray(image.read_bytes())
+    flash[flash.index(b"PRINT 11")] ^= 1
+    image.write_bytes(flash)
+    typed = "PRINT 5\rRUN\r"
+    done = subprocess.run(
+        [PROGRAM, "--virtual", "--flash", str(image)],
+        input=typed.encode(),
+        capture_output=True,
+        timeout=TIMEOUT_S,
+        check=True,
+    )
+    output = done.stdout.decode("latin-1")
+    assert "Error : The stored program is damaged and was ignored\r\n" in output
+    assert output.endswith("\r\n 5\r\n> RUN\r\nError : No program\r\n> ")
