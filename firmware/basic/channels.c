@@ -224,9 +224,23 @@ size_t channels_read_line(unsigned number, char *line) {
     return is_stream ? read_line_of_stream(channel, line) : read_line_of_file(channel, line);
 }
 
+// What is there of a channel. The LF of a line end whose CR was taken for a line is not.
+static size_t read_behind_line(channel_t *channel, char *bytes, size_t size) {
+    size_t got = read_some(channel, bytes, size);
+    if (got == 0 || !channel->after_cr) {
+        return got;
+    }
+    channel->after_cr = false;
+    if (bytes[0] != '\n') {
+        return got;
+    }
+    memmove(bytes, bytes + 1, got - 1);
+    return got - 1 + read_some(channel, bytes + got - 1, size - (got - 1));
+}
+
 size_t channels_read(unsigned number, char *bytes, size_t size) {
     if (number != 0) {
-        return read_some(channel_of(number), bytes, size);
+        return read_behind_line(channel_of(number), bytes, size);
     }
     size_t got = 0;
     while (got < size && console_has_input()) {

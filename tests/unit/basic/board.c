@@ -93,6 +93,8 @@ void board_start(const basic_command_t *commands, size_t command_count,
         .on_error = count_error,
         .may_restart = may_restart,
         .on_control = take_control,
+        .devices = &board.device,
+        .device_count = board.device != NULL,
     };
     basic_start(&state.config);
 }

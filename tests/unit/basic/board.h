@@ -51,6 +51,7 @@ typedef struct {
     unsigned hold_at_write;  // the terminal sends Ctrl-F when it gets this write
     bool piped;              // input is no terminal
     unsigned statements;
+    const struct basic_device *device; // that OPEN knows, set before board_start(); NULL: none
     void (*on_write)(const uint8_t *bytes, size_t size); // somebody listens; NULL: nobody
     int fail_program_after; // pages until programming the flash fails, -1: never
 } board_t;
