@@ -1,7 +1,11 @@
 // OPTION for what outlives power-off, at run time. Context: main loop.
 #include "actions.h"
+#include "channels.h"
 #include "console.h"
 #include "errors.h"
+#include "files/files.h"
+#include "hal/hal.h"
+#include "lexer.h"
 #include "options.h"
 
 #define ACTION_BODY(name) void actions_##name(value_t *arguments, unsigned count)
@@ -58,4 +62,23 @@ ACTION_BODY(option_reset) {
     if (options_reset() != ERR_OK) {
         errors_fail_raised();
     }
+}
+
+// FORMAT drive$
+ACTION_BODY(option_format) {
+    (void)count;
+    if (arguments->type != VALUE_STRING) {
+        errors_fail(ERR_EXPECTED_STRING);
+    }
+    if (!lexer_same(arguments->text, arguments->length, "A:")) {
+        errors_fail_with(ERR_ARGUMENT, "The drive is \"A:\"");
+    }
+    if (!hal_storage_is_writable()) {
+        errors_fail(ERR_STORAGE_BUSY);
+    }
+    channels_end_program();
+    if (files_format() != ERR_OK) {
+        errors_fail_raised();
+    }
+    options_restart();
 }

@@ -1,11 +1,7 @@
 // RUN, NEW, LOAD, SAVE and VAR at run time. Context: main loop.
 #include "actions.h"
-#include "channels.h"
 #include "errors.h"
 #include "files/files.h"
-#include "hal/hal.h"
-#include "lexer.h"
-#include "options.h"
 #include "program.h"
 #include "requests.h"
 #include "saved_variables.h"
@@ -55,30 +51,6 @@ ACTION_BODY(save) {
     if (files_replace(path, program_text(), program_length()) != ERR_OK) {
         errors_fail_raised();
     }
-}
-
-static bool is_text(const value_t *value, const char *text) {
-    return lexer_same(value->text, value->length, text);
-}
-
-// DRIVE "A:" is for programs made elsewhere: there is no other.
-ACTION_BODY(drive) {
-    (void)count;
-    expect_string(arguments);
-    if (is_text(arguments, "A:")) {
-        return;
-    }
-    if (!is_text(arguments, "A:/FORMAT")) {
-        errors_fail_with(ERR_FILE_BAD_NAME, "%.*s", (int)arguments->length, arguments->text);
-    }
-    if (!hal_storage_is_writable()) {
-        errors_fail(ERR_STORAGE_BUSY);
-    }
-    channels_end_program();
-    if (files_format() != ERR_OK) {
-        errors_fail_raised();
-    }
-    options_restart();
 }
 
 ACTION_BODY(var_save) {

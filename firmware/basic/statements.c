@@ -34,8 +34,6 @@ const statements_row_t statements_table[] = {
      "Declares variables and arrays"},
     {"DO", statements_do, "DO [WHILE|UNTIL condition] ... LOOP [WHILE|UNTIL condition]", "Repeats"},
     {"EDIT", statements_edit, "EDIT [file$]", "Edits the program, or a file, on the whole screen"},
-    {"DRIVE", statements_drive, "DRIVE \"A:/FORMAT\"",
-     "Deletes all files, options and saved variables; the program stays"},
     {"ELSE", statements_else, NULL, NULL},
     {"ELSEIF", statements_elseif, NULL, NULL},
     {"END", statements_end, "END [NOEND]", "Ends the program; NOEND: without its SUB MM.END"},
@@ -84,7 +82,8 @@ const statements_row_t statements_table[] = {
     {"OPTION", statements_option,
      "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1 / ESCAPE / ANGLE DEGREES|RADIANS / "
      "CONTINUATION LINES ON|OFF / AUTORUN ON|OFF / BREAK key / COLOURCODE ON|OFF / "
-     "DISPLAY lines [, columns] / TAB 2|3|4|8 / LIST / RESET",
+     "DISPLAY lines [, columns] / TAB 2|3|4|8 / LIST / RESET / "
+     "FORMAT \"A:\"",
      "Sets how a program is read and computes; from AUTORUN on, what is kept over power-off"},
     {"PAUSE", statements_pause, "PAUSE milliseconds", "Waits"},
     {"PRINT", statements_print, "PRINT [#n,] value [;|, ...]",

@@ -1,5 +1,6 @@
 // The statement OPTION for what outlives power-off. Context: main loop, while compiling.
 #include "actions.h"
+#include "compiler.h"
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
@@ -41,6 +42,14 @@ bool statements_option_kept(void) {
     }
     if (lexer_take_word("RESET")) {
         emit_action(ACTIONS_OPTION_RESET, 0);
+        return true;
+    }
+    if (lexer_take_word("FORMAT")) {
+        if (!compiler_at_prompt()) {
+            errors_fail(ERR_NOT_IN_PROGRAM);
+        }
+        expressions_compile();
+        emit_action(ACTIONS_OPTION_FORMAT, 1);
         return true;
     }
     if (lexer_take_word("DISPLAY")) {

@@ -1,4 +1,4 @@
-// Statements about the program as a whole: RUN, NEW, LOAD, SAVE; and about the drive they are on. Context: main loop, while compiling.
+// Statements about the program as a whole: RUN, NEW, LOAD, SAVE. Context: main loop, while compiling.
 #include "actions.h"
 #include "compiler.h"
 #include "emit.h"
@@ -49,12 +49,6 @@ void statements_load(void) {
     }
     emit_integer(runs);
     emit_action(ACTIONS_LOAD, 2);
-}
-
-void statements_drive(void) {
-    at_prompt_only();
-    expressions_compile();
-    emit_action(ACTIONS_DRIVE, 1);
 }
 
 void statements_save(void) {

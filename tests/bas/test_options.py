@@ -102,9 +102,11 @@ def test_a_damaged_option_costs_no_more_than_itself(tmp_path: Path) -> None:
 def test_format(tmp_path: Path) -> None:
     flash = ("--flash", str(tmp_path / "flash.bin"))
     session(stored("PRINT 11") + 'SAVE "x"\rOPTION TAB 4\rv=5:VAR SAVE v\r', *flash)
-    assert answers('DRIVE "A:/NONSENSE"\r', *flash) == ["Error : Not a file name: A:/NONSENSE"]
-    typed = 'DRIVE "A:"\rDRIVE "a:/format"\rOPTION LIST\rVAR RESTORE:?v\rRUN\rLOAD "x"\r'
+    assert answers('OPTION FORMAT "B:"\r', *flash) == ['Error : The drive is "A:"']
+    typed = 'OPTION FORMAT "a:"\rOPTION LIST\rVAR RESTORE:?v\rRUN\rLOAD "x"\r'
     assert answers(typed, *flash) == [" 0", " 11", "Error : File not found: /x.bas"]
     assert answers('OPTION LIST\rSAVE "y"\rLOAD "y",R\r', *flash) == [" 11"]
-    assert shown(MOVING + 'PRINT 0\rDRIVE "A:/FORMAT"\r') == [BUSY]
-    assert shown(stored('DRIVE "A:/FORMAT"') + "PRINT 0\rRUN\r")[-1] == "Error : Only at the prompt"
+    assert shown(MOVING + 'PRINT 0\rOPTION FORMAT "A:"\r') == [BUSY]
+    assert (
+        shown(stored('OPTION FORMAT "A:"') + "PRINT 0\rRUN\r")[-1] == "Error : Only at the prompt"
+    )
