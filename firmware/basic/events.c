@@ -25,7 +25,6 @@ static struct {
     unsigned last;   // the event served last
     tick_t ticks[EVENTS_TICKS];
     // What the program gets back when the SUB under way ends.
-    uint8_t *scratch;
     err_t error_code;
     const char *error_text; // NULL: empty
     vm_on_error_t on_error;
@@ -193,11 +192,9 @@ static void save_error_state(void) {
 }
 
 static void enter(const symbols_routine_t *routine) {
-    uint8_t *scratch = memory.scratch;
     (vm.sp++)->type = VALUE_NONE; // the place for a FUNCTION's value
     calls_enter(routine, 0);
     vm.interrupt_depth = vm.depth;
-    events.scratch = scratch;
     save_error_state();
     update_watch();
 }
@@ -233,7 +230,6 @@ void events_left(void) {
     } else {
         vm.error_text[0] = '\0';
     }
-    memory.scratch = events.scratch;
     vm.interrupt_depth = 0;
     update_watch();
 }

@@ -169,3 +169,12 @@ PRINT 1 / 0 '! Divide by zero
 SUB MM.END
   PRINT "never"
 END SUB
+'--- MM.ERRNO of the program outlasts an error in the SUB of an event
+ON ERROR IGNORE
+KILL "nowhere.txt"
+SETTICK 10, tick
+PAUSE 15
+PRINT MM.ERRNO '> 4
+SUB tick
+  a = 1 / 0
+END SUB
