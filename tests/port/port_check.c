@@ -3,7 +3,6 @@
 // Contexts: hal_on_tick() tick, hal_on_governor() governor, all else main.
 #include "hal/hal.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define PULSE_GPIO 2u
@@ -56,7 +55,7 @@ static void say(const char *text) {
 
 static void say_numbers(const char *name, unsigned a, unsigned b, unsigned c) {
     char line[80];
-    snprintf(line, sizeof line, "%s %u %u %u\r\n", name, a, b, c);
+    format_text(line, sizeof line, "%s %u %u %u\r\n", name, a, b, c);
     say(line);
 }
 
@@ -179,7 +178,7 @@ static void read_without_pause(void) {
 static void print_much(void) {
     char line[80];
     for (unsigned i = 0; i < 500; i++) {
-        snprintf(line, sizeof line, "line %u of a long output\r\n", i);
+        format_text(line, sizeof line, "line %u of a long output\r\n", i);
         say(line);
     }
 }
