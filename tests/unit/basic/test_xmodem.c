@@ -78,7 +78,7 @@ void tearDown(void) {}
 static unsigned crc16(const uint8_t *bytes, size_t size) { // by the definition: a division
     unsigned remainder = 0;
     for (size_t i = 0; i < size * 8 + 16; i++) {
-        unsigned bit = i < size * 8 ? bytes[i / 8] >> (7 - i % 8) & 1u : 0;
+        unsigned bit = i < size * 8 ? (unsigned)bytes[i / 8] >> (7 - i % 8) & 1u : 0;
         unsigned carry = remainder & 0x8000u;
         remainder = (remainder << 1 | bit) & 0xFFFFu;
         remainder ^= carry ? 0x1021u : 0;
