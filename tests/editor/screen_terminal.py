@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import pty
 import select
 import subprocess
+import termios
+import time
 from pathlib import Path
 
 import pyte
@@ -22,15 +25,14 @@ class ScreenTerminal:
     def __init__(self, rows: int = 24, columns: int = 80, options: tuple[str, ...] = ()) -> None:
         self.screen = pyte.Screen(columns, rows)
         self.stream = pyte.ByteStream(self.screen)
-        self.master, slave = pty.openpty()
+        self.master, self.slave = pty.openpty()
         self.program = subprocess.Popen(
             [PROGRAM, "--virtual", *options],
-            stdin=slave,
-            stdout=slave,
-            stderr=slave,
+            stdin=self.slave,
+            stdout=self.slave,
+            stderr=self.slave,
             close_fds=True,
         )
-        os.close(slave)
         self.until(b"> ")
 
     def until(self, end: bytes | tuple[bytes, ...]) -> bytes:
@@ -80,10 +82,34 @@ class ScreenTerminal:
         """Type nothing for so long that virtual time goes on, if there is something to do."""
         select.select([self.master], [], [], 0.1)
 
-    def settle(self) -> None:
-        """Take in what the program says until it says nothing more."""
-        while select.select([self.master], [], [], 0.03)[0]:
+    def take_in(self) -> None:
+        """Take in what the program has said so far."""
+        while select.select([self.master], [], [], 0)[0]:
             self.stream.feed(os.read(self.master, 65536))
+
+    def wait_until_it_waits(self) -> None:
+        """Return once the program has taken all input and sleeps."""
+        select.select([self.master], [], [], 0.3)  # most keys are answered by something
+        end = time.monotonic() + TIMEOUT_S
+        state = Path(f"/proc/{self.program.pid}/stat")
+        while time.monotonic() < end:
+            waiting = fcntl.ioctl(self.slave, termios.FIONREAD, b"\0" * 4)
+            if waiting == b"\0" * 4 and state.read_text().rsplit(")", 1)[1].split()[0] == "S":
+                return
+            time.sleep(0.001)
+        raise AssertionError("the program does not wait for input")
+
+    def shows(self, row: str) -> bool:
+        """Take in what the program says; tell whether the last row becomes this one in time."""
+        while self.last_row() != row:
+            if not select.select([self.master], [], [], TIMEOUT_S)[0]:
+                return False
+            self.stream.feed(os.read(self.master, 65536))
+        return True
+
+    def last_row(self) -> str:
+        """Return the last row with something in it."""
+        return [row for row in self.rows() if row][-1]
 
     def enter_program(self, text: str) -> None:
         """Store a program."""
@@ -113,3 +139,4 @@ class ScreenTerminal:
         self.program.kill()
         self.program.wait()
         os.close(self.master)
+        os.close(self.slave)

@@ -9,7 +9,7 @@ import pytest
 from screen_terminal import ScreenTerminal
 
 LEFT, HOME, WORD_LEFT, WORD_RIGHT = "\x1b[D", "\x1b[H", "\x1b[1;5D", "\x1b[1;5C"
-PROGRAM = "SUB drill(n)\nPRINT n\nEND SUB\nFUNCTION depth()\ndepth = 3\nEND FUNCTION\n"
+PROGRAM = "SUB zdrill(n)\nPRINT n\nEND SUB\nFUNCTION depth()\ndepth = 3\nEND FUNCTION\n"
 
 
 @pytest.fixture
@@ -19,12 +19,12 @@ def terminal() -> Iterator[ScreenTerminal]:
     at.close()
 
 
-def typed(at: ScreenTerminal, *keys: str) -> str:
-    """Type keys one by one; the last line on the screen."""
+def press(at: ScreenTerminal, *keys: str) -> None:
+    """Press keys, each when the program waits for it: what comes at once counts as a paste."""
     for key in keys:
+        at.take_in()
         os.write(at.master, key.encode())
-        at.settle()
-    return [row for row in at.rows() if row][-1]
+        at.wait_until_it_waits()
 
 
 @pytest.mark.parametrize(
@@ -40,53 +40,66 @@ def typed(at: ScreenTerminal, *keys: str) -> str:
         ("HELP STEPPER JUN", "> HELP STEPPER JUNCTION"),
         ("PRINT UCA", "> PRINT UCASE$("),
         ("PRINT 2+PEE", "> PRINT 2+PEEK("),
-        ("dri", "> drill"),
+        ("zdri", "> zdrill"),
         ("PRINT dep", "> PRINT depth("),
-        ("PRINT dri", "> PRINT dri"),
+        ("PRINT zdri", "> PRINT zdri"),
         ("PRINT UCX", "> PRINT UCX"),
         ("PRINT LE", "> PRINT LE"),
     ],
 )
 def test_tab_completes(terminal: ScreenTerminal, start: str, line: str) -> None:
     terminal.enter_program(PROGRAM)
-    assert typed(terminal, start, "\t") == line
+    press(terminal, start, "\t")
+    assert terminal.shows(line)
 
 
 def test_a_second_tab_lists_what_it_could_be(terminal: ScreenTerminal) -> None:
-    typed(terminal, "PRINT LE", "\t", "\t")
+    press(terminal, "PRINT LE", "\t", "\t")
+    terminal.until(b"> PRINT LE")
+    terminal.take_in()
     rows = [row for row in terminal.rows() if row]
     assert rows[-3] == "> PRINT LE"
     assert rows[-2].split() == ["LEFT$(", "LEN("]
     assert rows[-1] == "> PRINT LE"
-    assert typed(terminal, 'FT$("ab",1)\r', "") == ">"
+    press(terminal, 'FT$("ab",1)\r')
+    assert terminal.shows(">")
     assert "a" in terminal.rows()
 
 
 def test_tab_completes_names_of_files(terminal: ScreenTerminal) -> None:
     terminal.type('MKDIR "parts"\r')
     terminal.type('CHDIR "parts":OPEN "Gear.nc" FOR OUTPUT AS 1:CLOSE:CHDIR "/"\r')
-    assert typed(terminal, 'LIST "pa', "\t") == '> LIST "parts/'
-    assert typed(terminal, "G", "\t") == '> LIST "parts/Gear.nc'
-    assert typed(terminal, "\x15", 'LIST "parts/g', "\t") == '> LIST "parts/g'  # capitals count
+    press(terminal, 'LIST "pa', "\t")
+    assert terminal.shows('> LIST "parts/')
+    press(terminal, "G", "\t")
+    assert terminal.shows('> LIST "parts/Gear.nc')
+    press(terminal, "\x15", 'LIST "parts/g', "\t")
+    assert terminal.shows('> LIST "parts/g')  # capitals count
 
 
 def test_a_tab_in_a_paste_is_a_blank(terminal: ScreenTerminal) -> None:
-    assert typed(terminal, "PRINT\t1+\t2\r").startswith(">")
+    terminal.type("PRINT\t1+\t2\r")
     assert "> PRINT 1+ 2" in terminal.rows()
 
 
 def test_words_are_jumped_over_and_deleted(terminal: ScreenTerminal) -> None:
-    assert typed(terminal, "PRINT one, two", WORD_LEFT, "x") == "> PRINT one, xtwo"
-    assert typed(terminal, WORD_LEFT, WORD_LEFT, "\x17") == "> one, xtwo"
-    assert typed(terminal, WORD_RIGHT, "y") == "> one, yxtwo"
+    press(terminal, "PRINT one, two", WORD_LEFT, "x")
+    assert terminal.shows("> PRINT one, xtwo")
+    press(terminal, WORD_LEFT, WORD_LEFT, "\x17")
+    assert terminal.shows("> one, xtwo")
+    press(terminal, WORD_RIGHT, "y")
+    assert terminal.shows("> one, yxtwo")
 
 
 def test_letters_beyond_ascii_are_one_place(terminal: ScreenTerminal) -> None:
-    assert typed(terminal, "'Größe", LEFT, LEFT, "\x7f", "ä") == "> 'Gräße"
+    press(terminal, "'Größe", LEFT, LEFT, "\x7f", "ä")
+    assert terminal.shows("> 'Gräße")
     assert terminal.cursor()[1] == 6
-    assert typed(terminal, HOME, "\x1b[3~", "ü", "ö") == "> üöGräße"
+    press(terminal, HOME, "\x1b[3~", "ü", "ö")
+    assert terminal.shows("> üöGräße")
     assert terminal.cursor()[1] == 4
-    assert typed(terminal, "\x1b[2~", "x", "y", "z") == "> üöxyzße"
+    press(terminal, "\x1b[2~", "x", "y", "z")
+    assert terminal.shows("> üöxyzße")
 
 
 @pytest.mark.parametrize(
@@ -108,14 +121,16 @@ def test_f4_edits_and_f10_takes_a_program(terminal: ScreenTerminal) -> None:
 
 def test_unknown_sequences_and_bracketed_pastes_do_nothing_strange(terminal) -> None:
     noise = ["\x1b[99~", "\x1b[?1;2c", "\x1b[200~", "\x1bOx", "\x1b[12;34;56m", "\x1b[201~"]
-    assert typed(terminal, "PRINT ", *noise, "5") == "> PRINT 5"
+    press(terminal, "PRINT ", *noise, "5")
+    assert terminal.shows("> PRINT 5")
 
 
 def test_a_program_can_have_its_own_prompt(terminal: ScreenTerminal) -> None:
     terminal.type("AUTOSAVE\r", b"\r\n")
     terminal.type('SUB MM.PROMPT\rn = n + 1\rPRINT "line"; n; ": ";\rEND SUB\r\x1a', b"line 1: ")
     terminal.type("PRINT 3\r", b"line 2: ")
-    assert typed(terminal, "PRINT 12", LEFT, "x") == "line 2: PRINT 1x2"
+    press(terminal, "PRINT 12", LEFT, "x")
+    assert terminal.shows("line 2: PRINT 1x2")
     assert terminal.cursor()[1] == 16
     terminal.type("\x15NEW\r", b"\r\n> ")
 
