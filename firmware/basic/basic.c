@@ -236,8 +236,8 @@ static err_t run_routine(const char *name, void (*on_error)(void)) {
 
 static err_t run_program(void) {
     void (*on_error)(void) = on_program_error();
-    for (;;) {                  // a program may say RUN
-        channels_end_program(); // those the prompt has opened
+    for (;;) {                          // a program may say RUN
+        report(channels_end_program()); // those the prompt has opened
         size_t length;
         const char *argument = requests_argument(&length);
         err_t error = program_compile(argument, length);
@@ -248,7 +248,8 @@ static err_t run_program(void) {
         if (error == ERR_OK && vm.at_end) {
             error = run_routine("MM.END", on_error); // it has the last word
         }
-        channels_end_program();
+        err_t closing = report(channels_end_program());
+        error = error != ERR_OK ? error : closing;
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
         }
@@ -263,7 +264,7 @@ static err_t run_program(void) {
 static void end_if_new(err_t error) {
     report(error);
     if (error == ERR_OK) {
-        channels_end_program();
+        report(channels_end_program());
     }
 }
 

@@ -99,12 +99,13 @@ void channels_close_open(void) {
     check(error);
 }
 
-void channels_end_program(void) {
+err_t channels_end_program(void) {
+    err_t error = ERR_OK;
     for (unsigned i = 0; i < CHANNELS_MAX; i++) {
-        if (channels.open[i].device != NULL) {
-            close(&channels.open[i]);
-        }
+        err_t now = channels.open[i].device != NULL ? close(&channels.open[i]) : ERR_OK;
+        error = now != ERR_OK ? now : error; // the one whose text stands
     }
+    return error;
 }
 
 // ---- Writing -------------------------------------------------------------------------------------

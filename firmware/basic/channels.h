@@ -22,8 +22,8 @@ void channels_close(unsigned number);
 // Closes all up to the first that makes an error.
 void channels_close_open(void);
 
-// Closes all when a program starts or ends; nobody is there to be told of an error.
-void channels_end_program(void);
+// Closes all when a program starts or ends. Returns an error that one of them has met.
+err_t channels_end_program(void);
 
 // Writes the text as a whole: an error means that nothing of it was taken. Ctrl-C ends the wait for a
 // device that has no room.

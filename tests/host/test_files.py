@@ -272,3 +272,29 @@ def test_a_bad_line_of_a_gcode_file_is_named() -> None:
     )
     assert "Line 3: X3 X4" in shown
     assert shown[-1] == "Error : X given twice"
+
+
+def test_what_cannot_be_stored_at_a_programs_end_is_told() -> None:
+    """The disk is so full that a small file does not fit any more."""
+    program = """\
+OPEN "big" FOR OUTPUT AS #1
+ON ERROR IGNORE
+DO WHILE MM.ERRNO = 0 : PRINT #1, STRING$(250, 65) : LOOP
+CLOSE #1 : ON ERROR CLEAR : ON ERROR ABORT
+FOR n = 1 TO 99
+PRINT n
+OPEN "t" + STR$(n) FOR OUTPUT AS #1 : PRINT #1, STRING$(100, 66)
+{}
+CLOSE #1
+NEXT
+"""
+    full = "Error : Not enough space on A:"
+
+    def run(line: str) -> list[str]:
+        return answers(f"AUTOSAVE\r{program.format(line)}".replace("\n", "\r") + f"{CTRL_Z}RUN")
+
+    shown = run("")
+    assert shown[-1] == full
+    last = int(shown[-3])
+    shown = run(f"IF n = {last} THEN END")
+    assert shown[-2:] == [f" {last}", full]
