@@ -340,6 +340,12 @@ def test_a_file_is_edited(terminal: ScreenTerminal) -> None:
     assert terminal.rows()[0] == "x"
 
 
+def test_f2_runs_a_file_as_the_program(terminal: ScreenTerminal) -> None:
+    terminal.edit('EDIT "part.bas"')
+    assert b"\r\n 6\r\n" in b"\r\n" + terminal.type("\x1b[200~PRINT 2*3\x1b[201~" + F2)
+    assert terminal.listing() == "PRINT 2*3\n"
+
+
 def test_a_line_too_long_for_a_program_is_not_saved_but_not_lost(terminal) -> None:
     terminal.edit()
     terminal.key("\x1b[200~" + "PRINT 1\n" + "'" * 256 + "\x1b[201~")

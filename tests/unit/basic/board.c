@@ -10,7 +10,7 @@
 
 #define INPUT_SIZE 40000
 #define SHOWN_SIZE 100000
-#define LATER_MAX 4
+#define LATER_MAX 8
 #define ARENA_SIZE (96 * 1024)
 
 board_t board;

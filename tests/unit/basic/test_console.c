@@ -124,6 +124,53 @@ static void test_format_number(void) {
     TEST_ASSERT_EQUAL_STRING("0.3", basic_format_number(text, 4, 1.0 / 3.0));
 }
 
+// ---- Keys ----------------------------------------------------------------------------------------
+
+static void test_a_sequence_may_come_in_pieces(void) {
+    board_type("PRINT 15", 8);
+    board_type_at(20000, "\x1b");
+    board_type_at(60000, "[");
+    board_type_at(100000, "D");
+    board_type_at(500000, "7\r");
+    TEST_ASSERT_NOT_NULL(strstr(board_session(""), "\r\n 175\r\n"));
+}
+
+static void test_a_sequence_in_pieces_too_far_apart_is_a_key_and_letters(void) {
+    board_type("PRINT ", 6);
+    board_type_at(20000, "\x1b");
+    board_type_at(200000, "3\r");
+    TEST_ASSERT_NOT_NULL(strstr(board_session(""), "\r\n 3\r\n"));
+}
+
+static void test_a_sequence_cut_off_leaves_the_line_end(void) {
+    TEST_ASSERT_NOT_NULL(strstr(board_session("PRINT 4\x1b[1;\r"), "\r\n 4\r\n"));
+}
+
+static void test_escape_alone_is_a_key_for_inkey(void) {
+    board_type_at(20000, "\x1b");
+    const char *shown = board_session("DO:k$=INKEY$:LOOP UNTIL k$<>\"\":PRINT ASC(k$)\r");
+    TEST_ASSERT_NOT_NULL(strstr(shown, "\r\n 27\r\n"));
+}
+
+// Typed by hand, a new line in the editor is indented; what comes faster is not.
+static void test_the_editor_indents_what_is_typed(void) {
+    board_type("EDIT\r", 5);
+    board_type_at(1000000, "  a");
+    board_type_at(2000000, "\r");
+    board_type_at(2100000, "b");
+    board_type_at(3000000, "\x11LIST\r");
+    TEST_ASSERT_NOT_NULL(strstr(board_session(""), "> LIST\r\n  a\r\n  b\r\n"));
+}
+
+static void test_the_editor_leaves_a_paste_over_a_slow_line_as_it_is(void) {
+    board_type("EDIT\r", 5);
+    board_type_at(1000000, "  a");
+    board_type_at(1000087, "\r");
+    board_type_at(1000174, "b");
+    board_type_at(3000000, "\x11LIST\r");
+    TEST_ASSERT_NOT_NULL(strstr(board_session(""), "> LIST\r\n  a\r\nb\r\n"));
+}
+
 // ---- Characters that act at once -----------------------------------------------------------------
 
 static void test_a_control_acts_within_a_statement_of_a_program(void) {
@@ -266,6 +313,12 @@ int main(void) {
     RUN_TEST(test_a_program_that_does_not_read_its_input_can_be_stopped);
     RUN_TEST(test_a_notice_stands_on_its_own_line);
     RUN_TEST(test_a_notice_within_output);
+    RUN_TEST(test_a_sequence_may_come_in_pieces);
+    RUN_TEST(test_a_sequence_in_pieces_too_far_apart_is_a_key_and_letters);
+    RUN_TEST(test_a_sequence_cut_off_leaves_the_line_end);
+    RUN_TEST(test_escape_alone_is_a_key_for_inkey);
+    RUN_TEST(test_the_editor_indents_what_is_typed);
+    RUN_TEST(test_the_editor_leaves_a_paste_over_a_slow_line_as_it_is);
     RUN_TEST(test_a_control_acts_within_a_statement_of_a_program);
     RUN_TEST(test_a_control_acts_at_once_in_a_pause_that_goes_on);
     RUN_TEST(test_a_control_leaves_the_line_being_typed_whole);
