@@ -342,7 +342,7 @@ def test_a_file_is_edited(terminal: ScreenTerminal) -> None:
 
 def test_f2_runs_a_file_as_the_program(terminal: ScreenTerminal) -> None:
     terminal.edit('EDIT "part.bas"')
-    assert b"\r\n 6\r\n" in b"\r\n" + terminal.type("\x1b[200~PRINT 2*3\x1b[201~" + F2)
+    assert terminal.type("\x1b[200~PRINT 2*3\x1b[201~" + F2).endswith(b"\r 6\r\n> ")
     assert terminal.listing() == "PRINT 2*3\n"
 
 
