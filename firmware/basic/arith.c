@@ -18,7 +18,7 @@ static bool fits_multiply(int64_t left, int64_t right, int64_t *product) {
 }
 
 static void set_checked(value_t *value, double number) {
-    if (!isfinite(number)) {
+    if (!value_is_finite(number)) {
         errors_fail(ERR_OVERFLOW);
     }
     value_set_number(value, number);
@@ -176,7 +176,7 @@ static void basic_operator(code_op_t op, value_t *values) {
         set_checked(values, left * right);
         break;
     default:
-        if (right == 0.0) {
+        if (value_is_zero(right)) {
             errors_fail(ERR_DIVIDE_BY_ZERO);
         }
         set_checked(values, left / right);

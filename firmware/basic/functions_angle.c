@@ -11,7 +11,7 @@
 static const double pi = 3.14159265358979323846;
 
 static void set_checked(value_t *result, double number) {
-    if (!isfinite(number)) {
+    if (!value_is_finite(number)) {
         errors_fail(ERR_OVERFLOW);
     }
     value_set_number(result, number);

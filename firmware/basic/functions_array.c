@@ -51,7 +51,7 @@ static double mean_of(const variables_array_t *array) {
 }
 
 static void set_checked(value_t *result, double number) {
-    if (!isfinite(number)) {
+    if (!value_is_finite(number)) {
         errors_fail(ERR_OVERFLOW);
     }
     value_set_number(result, number);

@@ -8,7 +8,7 @@
 #define UNUSED_COUNT() (void)count
 
 static void set_checked(value_t *result, double number) {
-    if (!isfinite(number)) {
+    if (!value_is_finite(number)) {
         errors_fail(ERR_OVERFLOW);
     }
     value_set_number(result, number);

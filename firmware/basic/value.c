@@ -60,7 +60,9 @@ double value_to_number(const value_t *value) {
         return value->number;
     }
     if (value->type == VALUE_INTEGER) {
-        return (double)value->integer;
+        int32_t small = (int32_t)value->integer;
+        return small == value->integer ? (double)small
+                                       : (double)value->integer; // 32 bits are quicker
     }
     errors_fail(ERR_EXPECTED_NUMBER);
 }
@@ -81,7 +83,8 @@ int64_t value_to_integer(const value_t *value) {
 }
 
 bool value_is_true(const value_t *value) {
-    return value->type == VALUE_INTEGER ? value->integer != 0 : value_to_number(value) != 0.0;
+    return value->type == VALUE_INTEGER ? value->integer != 0
+                                        : !value_is_zero(value_to_number(value));
 }
 
 int value_compare_text(const value_t *left, const value_t *right) {

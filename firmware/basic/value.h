@@ -70,13 +70,26 @@ int value_compare_text(const value_t *left, const value_t *right);
 // Makes `value` a STRING of these bytes.
 void value_set_text(value_t *value, const char *text, size_t length);
 
+// What isfinite() and == 0.0 say, without the library's comparisons, of which each takes half a hundred cycles on a board.
+static inline uint64_t value_bits(double number) {
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    return bits;
+}
+
+static inline bool value_is_finite(double number) {
+    return (uint32_t)(value_bits(number) >> 52 & 0x7FF) != 0x7FF;
+}
+
+static inline bool value_is_zero(double number) {
+    return value_bits(number) << 1 == 0;
+}
+
 // <0, 0, >0; for numbers that are no NaN. As integers the bits of two doubles stand in the order of the
-// numbers, or against it if both are negative, which spares a board half a hundred cycles.
+// numbers, or against it if both are negative.
 static inline int value_order(double left, double right) {
-    int64_t left_bits;
-    int64_t right_bits;
-    memcpy(&left_bits, &left, sizeof left_bits);
-    memcpy(&right_bits, &right, sizeof right_bits);
+    int64_t left_bits = (int64_t)value_bits(left);
+    int64_t right_bits = (int64_t)value_bits(right);
     if ((left_bits ^ right_bits) < 0) { // -0 equals 0
         return (left > right) - (left < right);
     }
