@@ -109,10 +109,20 @@ static void show_waiting_notices(void) {
     }
 }
 
+// It may come between an error and its message.
+static void tend_files(void) {
+    char before[ERR_MESSAGE_SIZE];
+    strcpy(before, err_message());
+    if (files_background() != ERR_OK) {
+        basic_notice("Error : %s", err_message());
+        err_raise(ERR_ARGUMENT, "%s", before);
+    }
+}
+
 // Whenever the console waits and every few statements.
 static void background(void) {
     show_waiting_notices();
-    files_background();
+    tend_files();
     watchdog_look();
     if (config->background != NULL) {
         config->background();

@@ -313,16 +313,19 @@ void files_close_all(void) {
     }
 }
 
-void files_background(void) {
+err_t files_background(void) {
     if (files.closing == 0 || !hal_storage_is_writable()) {
-        return;
+        return ERR_OK;
     }
+    err_t error = ERR_OK;
     files.closing = 0;
     for (size_t i = 0; i < FILES_OPEN_MAX; i++) {
         if (files.handles[i].open && files.handles[i].closing) {
-            close_now(&files.handles[i]);
+            err_t now = close_now(&files.handles[i]);
+            error = now != ERR_OK ? now : error;
         }
     }
+    return error;
 }
 
 // ---- Whole files ---------------------------------------------------------------------------------

@@ -24,8 +24,9 @@ err_t files_start(void);
 // Deletes everything.
 err_t files_format(void);
 
-// Where to call now and then when something may be left to do; costs nothing if not.
-void files_background(void);
+// Where to call now and then when something may be left to do; costs nothing if not. Returns the error of a
+// file that was closed while motion was under way and cannot be stored.
+err_t files_background(void);
 
 // ---- Open files ----------------------------------------------------------------------------------
 

@@ -290,11 +290,15 @@ NEXT
 """
     full = "Error : Not enough space on A:"
 
-    def run(line: str) -> list[str]:
-        return answers(f"AUTOSAVE\r{program.format(line)}".replace("\n", "\r") + f"{CTRL_Z}RUN")
+    def run(line: str, *around: str) -> list[str]:
+        source = f"AUTOSAVE\r{program.format(line)}".replace("\n", "\r")
+        return answers(*around[:-1], f"{source}{CTRL_Z}RUN", *around[-1:])
 
     shown = run("")
     assert shown[-1] == full
     last = int(shown[-3])
     shown = run(f"IF n = {last} THEN END")
     assert shown[-2:] == [f" {last}", full]
+    move = "STEPPER RUN : STEPPER GC G1 X2 F600 : END"  # closed only when that is done
+    shown = run(f"IF n = {last} THEN {move}", *MACHINE, WAIT)
+    assert shown[-2:] == ["Stepper armed", full]
