@@ -3,6 +3,7 @@
 #include "channels.h"
 #include "console.h"
 #include "errors.h"
+#include "function_keys.h"
 #include "files/files.h"
 #include "hal/hal.h"
 #include "lexer.h"
@@ -54,12 +55,27 @@ ACTION_BODY(option_list) {
     (void)arguments;
     (void)count;
     options_list();
+    function_keys_list();
+}
+
+ACTION_BODY(option_key) {
+    (void)count;
+    const value_t *text = &arguments[1];
+    if (text->type != VALUE_STRING) {
+        errors_fail(ERR_EXPECTED_STRING);
+    }
+    if (text->length > FUNCTION_KEYS_TEXT_MAX) {
+        errors_fail(ERR_STRING_TOO_LONG);
+    }
+    if (function_keys_set((unsigned)arguments[0].integer, text->text, text->length) != ERR_OK) {
+        errors_fail_raised();
+    }
 }
 
 ACTION_BODY(option_reset) {
     (void)arguments;
     (void)count;
-    if (options_reset() != ERR_OK) {
+    if (options_reset() != ERR_OK || function_keys_reset() != ERR_OK) {
         errors_fail_raised();
     }
 }

@@ -7,6 +7,7 @@
 #include "base/base.h"
 #include "complete.h"
 #include "console.h"
+#include "function_keys.h"
 #include "history.h"
 #include "keys.h"
 #include "line_screen.h"
@@ -200,16 +201,19 @@ static bool is_function_key(int key) {
     return key >= KEYS_F1 && key <= KEYS_F12;
 }
 
-// Some stand for a whole line.
+// It types a text; with a carriage return in it that is a line.
 static void press_function_key(int key) {
-    static const char *const lines[] = {
-        "FILES", "RUN", "LIST",     "EDIT",           NULL,          NULL, NULL,
-        NULL,    NULL,  "AUTOSAVE", "XMODEM RECEIVE", "XMODEM SEND",
-    };
-    const char *line = lines[key - KEYS_F1];
-    if (line != NULL && editor.options->prompt_keys) {
-        replace_line(line, strlen(line));
-        editor.entered = true;
+    if (!editor.options->prompt_keys) {
+        return;
+    }
+    char text[FUNCTION_KEYS_TEXT_MAX];
+    size_t length = function_keys_get((unsigned)(key - KEYS_F1) + 1, text);
+    for (size_t i = 0; i < length && !editor.entered; i++) {
+        if (text[i] == '\r') {
+            editor.entered = true;
+        } else {
+            insert(text[i]);
+        }
     }
 }
 

@@ -82,7 +82,7 @@ const statements_row_t statements_table[] = {
     {"OPTION", statements_option,
      "OPTION EXPLICIT / DEFAULT type|NONE / BASE 0|1 / ESCAPE / ANGLE DEGREES|RADIANS / "
      "CONTINUATION LINES ON|OFF / AUTORUN ON|OFF / BREAK key / COLOURCODE ON|OFF / "
-     "DISPLAY lines [, columns] / TAB 2|3|4|8 / LIST / RESET / "
+     "DISPLAY lines [, columns] / F1 text$ ... F12 text$ / TAB 2|3|4|8 / LIST / RESET / "
      "FORMAT \"A:\"",
      "Sets how a program is read and computes; from AUTORUN on, what is kept over power-off"},
     {"PAUSE", statements_pause, "PAUSE milliseconds", "Waits"},

@@ -4,6 +4,7 @@
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
+#include "function_keys.h"
 #include "lexer.h"
 #include "options.h"
 #include "statements.h"
@@ -35,7 +36,27 @@ static void compile_display(void) {
     emit_action(ACTIONS_OPTION_DISPLAY, 1 + columns);
 }
 
+// F1 to F12; 0 if it is none of them.
+static unsigned take_function_key(void) {
+    static const char *const names[FUNCTION_KEYS_COUNT] = {
+        "F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "F11", "F12",
+    };
+    for (unsigned i = 0; i < FUNCTION_KEYS_COUNT; i++) {
+        if (lexer_take_word(names[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
 bool statements_option_kept(void) {
+    unsigned key = take_function_key();
+    if (key != 0) {
+        emit_integer(key);
+        expressions_compile();
+        emit_action(ACTIONS_OPTION_KEY, 2);
+        return true;
+    }
     if (lexer_take_word("LIST")) {
         emit_action(ACTIONS_OPTION_LIST, 0);
         return true;

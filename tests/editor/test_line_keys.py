@@ -107,8 +107,29 @@ def test_letters_beyond_ascii_are_one_place(terminal: ScreenTerminal) -> None:
 )
 def test_function_keys_are_lines(terminal: ScreenTerminal, key: str, line: str) -> None:
     terminal.enter_program("PRINT 7\n")
-    terminal.type("unfinished" + key)
+    terminal.type(key)
     assert line in terminal.rows()
+
+
+def test_function_keys_have_texts_of_the_user(tmp_path) -> None:
+    flash = ("--flash", str(tmp_path / "flash.bin"))
+    at = ScreenTerminal(options=flash)
+    at.type('OPTION F5 "PRINT 6*"\r')
+    at.type('OPTION F2 "PRINT 5" + CHR$(13)\r')
+    at.type('OPTION F12 "\'" + SPACE$(62) + "x"\r')
+    assert at.type("OPTION F12 SPACE$(65)\r").endswith(b"Error : String too long\r\n> ")
+    at.close()
+    at = ScreenTerminal(options=flash)
+    press(at, "\x1b[15~", "7\r")
+    at.until(b" 42\r\n> ")
+    assert b"\r\n 5\r\n" in at.type("\x1bOQ")
+    listed = at.type("OPTION LIST\r")
+    assert b'OPTION F5 "PRINT 6*"\r\nOPTION F2 "PRINT 5" + CHR$(13)\r\n' in listed
+    at.type('OPTION F2 ""\r')
+    assert at.type("\x1bOQ").startswith(b"RUN")
+    at.type("OPTION RESET\r")
+    assert b"F5" not in at.type("OPTION LIST\r").removeprefix(b"OPTION LIST")
+    at.close()
 
 
 def test_f4_edits_and_f10_takes_a_program(terminal: ScreenTerminal) -> None:
