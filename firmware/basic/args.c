@@ -49,6 +49,11 @@ static bool stands_alone(bool in_parentheses) {
 
 static void compile_word(bool only_string) {
     const lexer_token_t *name = lexer_now();
+    if (symbols_find(SYMBOLS_ROUTINE, 0, name->text, name->length) != NULL) {
+        emit_string(name->text, name->length); // the name of a SUB is no variable's
+        lexer_next();
+        return;
+    }
     uint8_t check_type;
     emit_variable(OP_WORD, names_variable(name, &check_type));
     emit_byte(only_string);

@@ -169,11 +169,12 @@ static uint8_t settle(symbols_t *symbol, uint8_t type, bool is_new) {
     return type;
 }
 
-// A FUNCTION is no variable: without parentheses its name would read as 0 for ever.
+// A SUB or FUNCTION is no variable: without parentheses the name of one would read as 0 for ever.
 static void refuse_other_names(const char *text, size_t length) {
     const symbols_t *routine = symbols_find(SYMBOLS_ROUTINE, 0, text, length);
-    if (routine != NULL && routine->routine->is_function) {
-        errors_fail_with(ERR_FUNCTION_CALL, "%s", routine->name);
+    if (routine != NULL) {
+        errors_fail_with(routine->routine->is_function ? ERR_FUNCTION_CALL : ERR_SUB_NAME, "%s",
+                         routine->name);
     }
     if (length > 3 && same_name(text, 3, "MM.", 3)) {
         errors_fail_with(ERR_NO_FUNCTION, "%.*s", (int)length, text);

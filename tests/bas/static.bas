@@ -141,6 +141,31 @@ FUNCTION f()
   f = 5
   f = f + 1
 END FUNCTION
+'--- the name of a SUB as a variable
+s
+PRINT s '! S is a SUB, no variable
+SUB s
+END SUB
+'--- a LOCAL and a parameter may have the name of a SUB
+t 4
+SUB t(s)
+  LOCAL u = 5
+  PRINT s; u '> 4 5
+END SUB
+SUB s
+END SUB
+SUB u
+END SUB
+'--- a word of a command may be the name of a SUB
+STEPPER INIT '>Stepper initialized, buffer 32
+STEPPER AXIS X,GP2,GP3,,,80,6000,500
+STEPPER POSITION HOME
+STEPPER RUN '>Stepper armed
+STEPPER GCODE G1, X, 2, F, 6000
+PAUSE 300 : PRINT PEEK(STEPPER X) '> 2
+STEPPER CLOSE
+SUB x
+END SUB
 '--- DIM of the name of a FUNCTION
 DIM f '! F is a FUNCTION: it needs ()
 FUNCTION f()
