@@ -375,6 +375,7 @@ void basic_boot(void) {
     }
     if (!boot_is_wanted()) {
         console_print("MM.STARTUP and AUTORUN are skipped\r\n");
+        console_flush();
         return;
     }
     vm.request = VM_REQUEST_NONE;

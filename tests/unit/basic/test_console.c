@@ -293,6 +293,40 @@ static void test_no_change_while_motion_runs(void) {
     TEST_ASSERT_NOT_NULL(strstr(board_session("RUN\r"), "\r\n 11\r\n"));
 }
 
+// What a board shows that starts again and is then asked for 5.
+static const char *boot_again(void) {
+    board_start(NULL, 0, NULL, 0);
+    board_shown();
+    basic_boot();
+    return board_session("PRINT 5\r");
+}
+
+static const char *boot_shows(void) {
+    board_start(NULL, 0, NULL, 0);
+    board_shown();
+    basic_boot();
+    return board_shown();
+}
+
+static void test_a_board_that_crashed_does_not_start_its_program(void) {
+    board_session(PROGRAM("PRINT 11\rSUB MM.STARTUP\rPRINT 22\rEND SUB") "OPTION AUTORUN ON\r");
+    TEST_ASSERT_EQUAL_STRING(" 22\r\n 11\r\n", boot_shows());
+    board.start_reason = HAL_START_HUNG;
+    TEST_ASSERT_EQUAL_STRING("MM.STARTUP and AUTORUN are skipped\r\n", boot_shows());
+    TEST_ASSERT_NOT_NULL(strstr(boot_again(), "\r\n 5\r\n"));
+}
+
+static void test_without_ctrl_c_as_break_key_there_is_time_for_it_at_the_start(void) {
+    board_session(PROGRAM("PRINT 11") "OPTION AUTORUN ON\rOPTION BREAK 0\r");
+    uint64_t start_us = board.time_us;
+    TEST_ASSERT_EQUAL_STRING("Ctrl-C now keeps the program from starting\r\n 11\r\n", boot_shows());
+    TEST_ASSERT_UINT64_WITHIN(100000, 5000000, board.time_us - start_us);
+    board_type_at(board.time_us + 2000000, "\x03");
+    const char *shown = boot_shows();
+    TEST_ASSERT_NOT_NULL(strstr(shown, "are skipped\r\n"));
+    TEST_ASSERT_NULL(strstr(shown, " 11"));
+}
+
 static void test_background_and_statements(void) {
     unsigned before = board.statements;
     board_session("FOR i%=1 TO 100:NEXT\r");
@@ -332,6 +366,8 @@ int main(void) {
     RUN_TEST(test_the_program_survives_a_restart);
     RUN_TEST(test_power_lost_while_writing_leaves_the_old_program);
     RUN_TEST(test_no_change_while_motion_runs);
+    RUN_TEST(test_a_board_that_crashed_does_not_start_its_program);
+    RUN_TEST(test_without_ctrl_c_as_break_key_there_is_time_for_it_at_the_start);
     RUN_TEST(test_background_and_statements);
     return UNITY_END();
 }
