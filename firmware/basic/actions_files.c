@@ -1,4 +1,5 @@
-// FILES, KILL, RENAME, COPY, MKDIR, RMDIR, CHDIR, LIST file$, XMODEM at run time. Context: main loop.
+// FILES, KILL, RENAME, COPY, MKDIR, RMDIR, CHDIR, LIST file$, XMODEM at run time. Context: main
+// loop.
 #include <string.h>
 
 #include "actions.h"

@@ -1,5 +1,5 @@
-// What OPEN makes a channel of, besides files: a kind of device, for instance serial ports. A second face
-// of firmware/basic. Context: main loop.
+// What OPEN makes a channel of, besides files: a kind of device, for instance serial ports. A
+// second face of firmware/basic. Context: main loop.
 #ifndef BASIC_DEVICE_H
 #define BASIC_DEVICE_H
 
@@ -16,8 +16,8 @@ typedef enum {
 
 // Those that return err_t raise the error; `handle` is what open() gave.
 typedef struct basic_device {
-    // OPEN takes this device for names that start with these letters (any case) and in which a digit
-    // or a colon follows: "COM" for "COM2:115200".
+    // OPEN takes this device for names that start with these letters (any case) and in which a
+    // digit or a colon follows: "COM" for "COM2:115200".
     const char *name;
 
     // `text` is all of the name in OPEN. *handle is the device's own number for what it opened.
@@ -26,8 +26,8 @@ typedef struct basic_device {
     // The handle is free, whatever comes of it.
     err_t (*close)(int handle);
 
-    // Sends. *took is how many bytes were taken; fewer than `size` without an error: there is no room just
-    // now, and the caller waits and offers the rest. With an error nothing was taken.
+    // Sends. *took is how many bytes were taken; fewer than `size` without an error: there is no
+    // room just now, and the caller waits and offers the rest. With an error nothing was taken.
     err_t (*write)(int handle, const void *bytes, size_t size, size_t *took);
 
     // Takes up to `size` bytes of what is there; *got may be 0.

@@ -1,4 +1,5 @@
-// Channels: the table of what is open, lines cut from what comes, text kept whole. Context: main loop.
+// Channels: the table of what is open, lines cut from what comes, text kept whole. Context: main
+// loop.
 #include "channels.h"
 
 #include <string.h>

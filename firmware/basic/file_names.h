@@ -7,13 +7,14 @@
 #include "files/files.h"
 #include "value.h"
 
-// The value as a path, zero-terminated, valid until the statement ends. Error: no string, or a zero in it.
+// The value as a path, zero-terminated, valid until the statement ends. Error: no string, or a zero
+// in it.
 const char *file_names_path(const value_t *value);
 
 bool file_names_is_pattern(const char *path);
 
-// "folder/*.nc" cut in two: the folder (kept until the statement ends) and the pattern, which is a part
-// of `path`.
+// "folder/*.nc" cut in two: the folder (kept until the statement ends) and the pattern, which is a
+// part of `path`.
 const char *file_names_split(const char *path, const char **pattern);
 
 // True if `name` fits: * is any text, ? any character, capitals do not matter.

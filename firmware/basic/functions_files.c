@@ -9,8 +9,8 @@
 
 #define FUNCTION(name) void functions_##name(value_t *arguments, unsigned count, value_t *result)
 
-// What DIR$() without arguments goes on with. If somebody else has made a list meanwhile, it starts anew
-// and goes on behind the name given last.
+// What DIR$() without arguments goes on with. If somebody else has made a list meanwhile, it starts
+// anew and goes on behind the name given last.
 static struct {
     char folder[FILES_PATH_MAX + 1];
     char pattern[FILES_NAME_MAX + 1];

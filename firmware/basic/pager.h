@@ -8,8 +8,8 @@
 // A list starts. `all`: without a stop.
 void pager_start(bool all);
 
-// Prints a line and its end; before it, if the screen is full, waits for a key. False: the user wants no
-// more (q or Ctrl-C).
+// Prints a line and its end; before it, if the screen is full, waits for a key. False: the user
+// wants no more (q or Ctrl-C).
 bool pager_line(const char *text, size_t length);
 
 #endif

@@ -1,5 +1,5 @@
-// OPEN, CLOSE, SEEK, FLUSH, and what PRINT, INPUT and LINE INPUT do with a channel. Context: main loop,
-// while compiling.
+// OPEN, CLOSE, SEEK, FLUSH, and what PRINT, INPUT and LINE INPUT do with a channel. Context: main
+// loop, while compiling.
 #include "basic/basic_device.h"
 #include "emit.h"
 #include "errors.h"
@@ -78,8 +78,8 @@ static unsigned compile_print_item(void) {
     return 2;
 }
 
-// PRINT #n [, value [;|, ...]]: all values are computed before the first is written, so that an error
-// leaves no half of a line behind.
+// PRINT #n [, value [;|, ...]]: all values are computed before the first is written, so that an
+// error leaves no half of a line behind.
 void statements_print_channel(void) {
     expressions_compile();
     unsigned count = 1;

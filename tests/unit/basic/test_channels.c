@@ -1,5 +1,5 @@
-// Channels of a stream, which says little at a time: lines are waited for and cut rightly, what has no room
-// waits, and Ctrl-C ends every wait.
+// Channels of a stream, which says little at a time: lines are waited for and cut rightly, what has
+// no room waits, and Ctrl-C ends every wait.
 #include <string.h>
 
 #include <unity.h>

@@ -1,5 +1,5 @@
-// XMODEM against a peer with named faults, in virtual time. What arrives must be what was sent, or there
-// must be an error; in no case anything else.
+// XMODEM against a peer with named faults, in virtual time. What arrives must be what was sent, or
+// there must be an error; in no case anything else.
 #include <stdio.h>
 #include <string.h>
 
