@@ -111,7 +111,8 @@ static void check_same_size(const variables_array_t *one, const variables_array_
     }
 }
 
-// target(i) = source(i) op operand. All are computed before the first is written: an error changes nothing.
+// target(i) = source(i) op operand. All are computed before the first is written: an error changes
+// nothing.
 static void each(code_op_t op, const value_t *source, const value_t *operand,
                  const value_t *target) {
     const variables_array_t *from = numeric_array(source);

@@ -1,5 +1,5 @@
-// ERASE and REDIM. Memory is given back only if nothing on the stack refers to it: an argument by reference
-// may name an element, or the whole array, of a routine further out. Context: main loop.
+// ERASE and REDIM. Memory is given back only if nothing on the stack refers to it: an argument by
+// reference may name an element, or the whole array, of a routine further out. Context: main loop.
 #include "arrays.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
-// Calls of the built-in functions, by the rows of functions_table. Context: main loop, while compiling.
+// Calls of the built-in functions, by the rows of functions_table. Context: main loop, while
+// compiling.
 #include "function_calls.h"
 
 #include <string.h>
@@ -147,7 +148,8 @@ static void compile_indirect(void) {
     emit_indirect(is_call ? INDIRECT_FUNCTION : INDIRECT_EVAL, count);
 }
 
-// MATH(keyword arguments), MM.INFO(keyword) or MM.INFO$(keyword): the row has the name "MATH(KEYWORD", which no program can write otherwise.
+// MATH(keyword arguments), MM.INFO(keyword) or MM.INFO$(keyword): the row has the name
+// "MATH(KEYWORD", which no program can write otherwise.
 static void compile_family(const char *family) {
     lexer_next();
     lexer_expect('(');

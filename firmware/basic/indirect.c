@@ -1,5 +1,6 @@
-// CALL, EVAL and EXECUTE at run time. Text is compiled into the scratch and runs in a frame that gives it
-// back; the locals and the place of operands stay those of the routine around it. Context: main loop.
+// CALL, EVAL and EXECUTE at run time. Text is compiled into the scratch and runs in a frame that
+// gives it back; the locals and the place of operands stay those of the routine around it. Context:
+// main loop.
 #include "indirect.h"
 
 #include <string.h>
@@ -112,7 +113,8 @@ void indirect_run(indirect_kind_t kind, unsigned count) {
     }
 }
 
-// An EVAL has no statement of its own, so its frame is on top only if the fault is in its expression.
+// An EVAL has no statement of its own, so its frame is on top only if the fault is in its
+// expression.
 void indirect_unwind(void) {
     while (vm.depth > 0 && vm.frames[vm.depth - 1].routine == &calls_eval) {
         leave();

@@ -1,5 +1,5 @@
-// What a name means at the place being compiled: a local of the routine, or a variable of the program.
-// Context: main loop, while compiling.
+// What a name means at the place being compiled: a local of the routine, or a variable of the
+// program. Context: main loop, while compiling.
 #ifndef BASIC_NAMES_H
 #define BASIC_NAMES_H
 

@@ -17,7 +17,8 @@ typedef struct {
     bool empty_last; // empty strings come behind all others
 } sort_t;
 
-// Sorts. The background goes on meanwhile; Ctrl-C ends it with the elements in some order, none lost.
+// Sorts. The background goes on meanwhile; Ctrl-C ends it with the elements in some order, none
+// lost.
 void sort_run(const sort_t *job);
 
 #endif

@@ -1,6 +1,6 @@
-// Cuts a program's text into the lines that are compiled: without block comments, and with the lines that
-// a blank and an underscore at the end join, if OPTION CONTINUATION LINES is on. Context: main loop,
-// while compiling.
+// Cuts a program's text into the lines that are compiled: without block comments, and with the
+// lines that a blank and an underscore at the end join, if OPTION CONTINUATION LINES is on.
+// Context: main loop, while compiling.
 #ifndef BASIC_SOURCE_LINES_H
 #define BASIC_SOURCE_LINES_H
 

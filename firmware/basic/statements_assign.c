@@ -1,4 +1,5 @@
-// Assignments: to variables, and to what looks like a function. Context: main loop, while compiling.
+// Assignments: to variables, and to what looks like a function. Context: main loop, while
+// compiling.
 #include "actions.h"
 #include "args.h"
 #include "emit.h"
