@@ -1,0 +1,13 @@
+// What the files' names and their handles need of each other. Inside files/ only. Context: main loop.
+#ifndef FILES_NAMES_H
+#define FILES_NAMES_H
+
+#include "base/base.h"
+
+// Error: the file is open. The path is absolute.
+err_t names_check_unused(const char *path);
+
+// Removes what a power cut left of a replacement.
+void names_clean_up(void);
+
+#endif
