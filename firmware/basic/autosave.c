@@ -1,5 +1,5 @@
-// AUTOSAVE. The new text gathers in the free part of the arena, so that the old program stays until the
-// new one is complete. Context: main loop.
+// AUTOSAVE. The new text gathers in the free part of the arena, so that the old program stays until
+// the new one is complete. Context: main loop.
 #include "autosave.h"
 
 #include <string.h>

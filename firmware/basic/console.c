@@ -71,8 +71,8 @@ bool console_is_busy(void) {
     return console.flushing || console.polling || console.raw;
 }
 
-// A break that came together with the line it is to stop. Behind a further line it is left for then:
-// a script piped in must not lose the lines between.
+// A break that came together with the line it is to stop. Behind a further line it is left for
+// then: a script piped in must not lose the lines between.
 static void look_for_break_typed_ahead(void) {
     for (unsigned i = console.taken; i != console.received; i++) {
         uint8_t byte = console.input[i % INPUT_SIZE];
@@ -115,8 +115,8 @@ bool console_offer_control(int byte) {
 }
 
 // True if the byte is one that acts as soon as it comes, ahead of all input, and has done so. Where
-// control characters do not come from a keyboard they wait for their turn: what a script does must not
-// depend on how far ahead of it the script is read.
+// control characters do not come from a keyboard they wait for their turn: what a script does must
+// not depend on how far ahead of it the script is read.
 static bool acts_at_once(uint8_t byte) {
     if (console.raw || console.full_screen) {
         return false;

@@ -10,25 +10,27 @@
 // Told of a control character; true: it has done what it is for and is no input.
 typedef bool (*console_control_t)(char c);
 
-// `background` is called whenever the console waits. `on_control` is called inside console_poll(), that
-// is from any place that waits, prints or runs statements; NULL: none.
+// `background` is called whenever the console waits. `on_control` is called inside console_poll(),
+// that is from any place that waits, prints or runs statements; NULL: none.
 void console_start(void (*background)(void), console_control_t on_control);
 
-// ---- Input ---------------------------------------------------------------------------------------
+// ---- Input --------------------------------------------------------------------------------------
 
-// While a program or a command runs, the break key in the received bytes is not input but a request to
-// stop, which also throws away what was typed before it. Other control characters are offered to
-// `on_control` at all times, as soon as they come from a terminal and ahead of all input before them.
+// While a program or a command runs, the break key in the received bytes is not input but a request
+// to stop, which also throws away what was typed before it. Other control characters are offered to
+// `on_control` at all times, as soon as they come from a terminal and ahead of all input before
+// them.
 void console_set_running(bool running);
 
-// Which byte (1 to 255) ends a program; 0: none does. Ctrl-C to begin with. At the prompt it is always
-// Ctrl-C, whatever this says.
+// Which byte (1 to 255) ends a program; 0: none does. Ctrl-C to begin with. At the prompt it is
+// always Ctrl-C, whatever this says.
 void console_set_break_key(int key);
 
 // True if the byte asks for the end of what is being done: the break key, at the prompt Ctrl-C.
 bool console_is_break(int byte);
 
-// While on, every byte is input and none acts by itself: for protocols whose bytes mean something else.
+// While on, every byte is input and none acts by itself: for protocols whose bytes mean something
+// else.
 void console_set_raw(bool raw);
 
 // While on, every byte is a key for whoever owns the screen. In contrast to raw, notices may come.
@@ -61,7 +63,7 @@ bool console_has_input(void);
 // True, once, if input was thrown away because a program did not read it.
 bool console_lost_input(void);
 
-// ---- Output --------------------------------------------------------------------------------------
+// ---- Output -------------------------------------------------------------------------------------
 
 void console_write(const char *text, size_t length);
 void console_print(const char *text);
@@ -88,11 +90,11 @@ void console_send(void);
 // the output not sent yet is dropped.
 void console_flush(void);
 
-// True while bytes are being taken in or sent, or belong to a protocol: nothing may be printed that must
-// not be lost, or that belongs between lines.
+// True while bytes are being taken in or sent, or belong to a protocol: nothing may be printed that
+// must not be lost, or that belongs between lines.
 bool console_is_busy(void);
 
-// ---- Waiting -------------------------------------------------------------------------------------
+// ---- Waiting ------------------------------------------------------------------------------------
 
 // Lets the background work.
 void console_background(void);

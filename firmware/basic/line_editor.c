@@ -219,30 +219,49 @@ static void press_function_key(int key) {
 
 // ---- Keys ---------------------------------------------------------------------------------------
 
-static void edit(int key) {
+// True if the key only moves the cursor.
+static bool move(int key) {
     switch (key) {
     case KEYS_LEFT:
     case KEYS_CONTROL('S'):
         set_cursor(before(editor.cursor));
-        break;
+        return true;
     case KEYS_RIGHT:
     case KEYS_CONTROL('D'):
         set_cursor(behind(editor.cursor));
-        break;
+        return true;
     case KEYS_LEFT | KEYS_CTRL:
         set_cursor(word_before(editor.cursor));
-        break;
+        return true;
     case KEYS_RIGHT | KEYS_CTRL:
         set_cursor(word_behind(editor.cursor));
-        break;
+        return true;
     case KEYS_HOME:
     case KEYS_CONTROL('A'):
         set_cursor(0);
-        break;
+        return true;
     case KEYS_END:
     case KEYS_CONTROL('K'):
         set_cursor(editor.length);
-        break;
+        return true;
+    default:
+        return false;
+    }
+}
+
+// A key that stands for nothing is a character, or noise.
+static void type_key(int key) {
+    if (is_function_key(key)) {
+        press_function_key(key);
+    } else if (key >= ' ' && key <= 255) {
+        insert((char)key);
+    } else if (key < ' ') {
+        console_offer_control(key);
+    }
+}
+
+static void change(int key) {
+    switch (key) {
     case KEYS_INSERT:
     case KEYS_CONTROL('N'):
         editor.overwrite = !editor.overwrite;
@@ -273,14 +292,14 @@ static void edit(int key) {
         tab();
         break;
     default:
-        if (is_function_key(key)) {
-            press_function_key(key);
-        } else if (key >= ' ' && key <= 255) {
-            insert((char)key);
-        } else if (key < ' ') { // nobody's: noise
-            console_offer_control(key);
-        }
+        type_key(key);
         break;
+    }
+}
+
+static void edit(int key) {
+    if (!move(key)) {
+        change(key);
     }
     editor.tabbed = editor.tabbed && key == KEYS_TAB;
 }
