@@ -142,6 +142,7 @@ PWM 3, 1000, 100, , , 1
 PAUSE 2
 PRINT PIN(GP6) '> 0
 PWM SYNC , , , 0
+PAUSE 2
 PRINT PIN(GP6) '> 1
 '--- PWM SYNC of a slice without settings
 PWM SYNC 0 '! PWM slice 0 is not set up (use PWM)

@@ -58,7 +58,8 @@ def test_pulse_width(board: Emulator, width_ms: float) -> None:
     board.run_ms(30)
     (up_ns, _, up), (down_ns, _, down) = board.edges([2])
     assert (up, down) == (1, 0)
-    assert -1000 < down_ns - up_ns - width_ms * 1e6 < 6000
+    # An interrupt of the console may come in between.
+    assert -1000 < down_ns - up_ns - width_ms * 1e6 < 30_000
 
 
 def test_several_pulses_end_while_a_program_computes(board: Emulator) -> None:
