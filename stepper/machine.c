@@ -22,9 +22,11 @@ void machine_follow_motors(void) {
 }
 
 void machine_follow_stops(void) {
-    // Not only when the event is told to the user: nothing may be queued on a lost position before.
+    // Once, and at once: telling the user may take its time, and a position set until then stays known.
     if (governor_estop_event()) {
+        governor_clear_estop_event();
         machine.position_known = false;
+        machine.estop_untold = true;
     }
     uint32_t drops = governor_drops();
     if (drops != machine.drops_seen && !governor_working()) {

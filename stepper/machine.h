@@ -8,6 +8,7 @@
 typedef struct {
     bool initialized;
     bool position_known;
+    bool estop_untold; // a safety input has stopped the machine; stepper_next_event() tells it
     stepper_idle_t idle;
     stepper_init_t config;
     uint8_t spindle_gpio;

@@ -80,10 +80,10 @@ uint32_t stepper_status_bits(void) {
 }
 
 stepper_event_t stepper_next_event(void) {
-    if (!governor_estop_event()) { // asked at each statement of a program
-        return STEPPER_EVENT_NONE;
+    if (governor_estop_event()) { // asked every few statements of a program
+        machine_follow_stops();
     }
-    machine_follow_stops();
-    governor_clear_estop_event();
-    return STEPPER_EVENT_ESTOP;
+    bool estop = machine.estop_untold;
+    machine.estop_untold = false;
+    return estop ? STEPPER_EVENT_ESTOP : STEPPER_EVENT_NONE;
 }

@@ -179,6 +179,20 @@ static void test_estop_pin_is_watched_at_rest(void) {
     bench_end();
 }
 
+// The user may say where the machine stands before the language has told of the trip.
+static void test_a_position_set_after_a_trip_stays_known(void) {
+    bench_start();
+    press_estop(true);
+    bench_wait_us(20);
+    press_estop(false);
+    TEST_ASSERT_EQUAL(0, stepper_status_bits() & STEPPER_STATUS_POSITION_KNOWN);
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
+    TEST_ASSERT_EQUAL(STEPPER_EVENT_ESTOP, stepper_next_event());
+    TEST_ASSERT_EQUAL(STEPPER_STATUS_POSITION_KNOWN, stepper_status_bits());
+    TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());
+    bench_end();
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_stop_brakes_and_keeps_the_position);
@@ -191,5 +205,6 @@ int main(void) {
     RUN_TEST(test_estop_pin_disables_the_drivers);
     RUN_TEST(test_estop_pin_keeps_the_drivers_if_wanted);
     RUN_TEST(test_estop_pin_is_watched_at_rest);
+    RUN_TEST(test_a_position_set_after_a_trip_stays_known);
     return UNITY_END();
 }
