@@ -111,7 +111,7 @@ err_t runner_prompt_routine(const char *name) {
 }
 
 err_t runner_program(void) {
-    for (;;) {                          // a program may say RUN
+    for (;;) {                                   // a program may say RUN
         messages_report(channels_end_program()); // those the prompt has opened
         size_t length;
         const char *argument = requests_argument(&length);
