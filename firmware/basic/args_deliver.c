@@ -117,52 +117,71 @@ static void deliver_choice(const basic_arg_spec_t *spec, const value_t *value, b
     arg->text.text = choices_get(spec->choices, (int)arg->integer, &arg->text.length);
 }
 
-static int64_t pin_of_text(const value_t *value) {
+// The GPIO, or PINS_NONE.
+static unsigned pin_of_text(const value_t *value) {
     const char *text = value->text;
     if (value->length < 3 || value->length > 4 || (text[0] | 0x20) != 'g' ||
         (text[1] | 0x20) != 'p') {
-        return -1;
+        return PINS_NONE;
     }
-    int64_t gpio = 0;
+    unsigned gpio = 0;
     for (size_t i = 2; i < value->length; i++) {
         if (text[i] < '0' || text[i] > '9') {
-            return -1;
+            return PINS_NONE;
         }
-        gpio = gpio * 10 + (text[i] - '0');
+        gpio = gpio * 10 + (unsigned)(text[i] - '0');
     }
     return gpio;
 }
 
-static int64_t pin_of_number(const basic_arg_spec_t *spec, const value_t *value) {
-    double number = value_to_number(value);
-    if (!(number >= -0.5 && number < 255)) {
-        return -1;
-    }
-    int64_t whole = value_round(number);
+static bool is_board_number(const basic_arg_spec_t *spec) {
     int64_t rule = basic_option(BASIC_PIN_NUMBERS, BASIC_PIN_NUMBERS_BY_ROW);
-    bool board = rule == BASIC_PIN_NUMBERS_BOARD ||
-                 (rule != BASIC_PIN_NUMBERS_GPIO && (spec->flags & BASIC_ARG_BOARD_NUMBER) != 0);
-    return board ? pins_from_board_number((unsigned)whole) : whole;
+    return rule == BASIC_PIN_NUMBERS_BOARD ||
+           (rule != BASIC_PIN_NUMBERS_GPIO && (spec->flags & BASIC_ARG_BOARD_NUMBER) != 0);
+}
+
+static unsigned small_number(const value_t *value) {
+    double number = value_to_number(value);
+    return number >= -0.5 && number < PINS_NONE ? (unsigned)value_round(number) : PINS_NONE;
+}
+
+// The argument's name says nothing where it is "pin".
+static _Noreturn void fail_pin(const basic_arg_spec_t *spec, const value_t *value,
+                               const char *why) {
+    char shown[32];
+    bool told = strcmp(spec->name, "pin") == 0;
+    errors_fail_with(ERR_PIN_INVALID, "%s%s%s (%s)", shown_value(value, shown, sizeof shown),
+                     told ? "" : " for ", told ? "" : spec->name, why);
+}
+
+static bool means_no_pin(const basic_arg_spec_t *spec, const value_t *value) {
+    return (spec->flags & BASIC_ARG_OPTIONAL) != 0 && value_is_numeric(value) &&
+           (value->flags & VALUE_LITERAL) != 0 && value->type == VALUE_INTEGER &&
+           value->integer == 0;
 }
 
 static void deliver_pin(const basic_arg_spec_t *spec, const value_t *value, basic_arg_t *arg) {
-    char shown[32];
-    if (value_is_numeric(value)) {
-        bool literal_zero =
-            value->flags & VALUE_LITERAL && value->type == VALUE_INTEGER && value->integer == 0;
-        if (literal_zero && spec->flags & BASIC_ARG_OPTIONAL) {
-            arg->integer = PINS_NONE;
-            return;
+    if (means_no_pin(spec, value)) {
+        arg->integer = PINS_NONE;
+        return;
+    }
+    unsigned gpio;
+    if (!value_is_numeric(value)) {
+        gpio = pin_of_text(value);
+    } else if (is_board_number(spec)) {
+        unsigned number = small_number(value);
+        gpio = pins_from_board_number(number);
+        if (gpio == PINS_NONE) {
+            fail_pin(spec, value, pins_why_not_board_number(number));
         }
-        arg->integer = pin_of_number(spec, value);
     } else {
-        arg->integer = pin_of_text(value);
+        gpio = small_number(value);
     }
-    if (arg->integer < 0 || !pins_is_user((unsigned)arg->integer)) {
-        errors_fail_with(ERR_PIN_INVALID, "%s for %s", shown_value(value, shown, sizeof shown),
-                         spec->name);
+    if (!pins_is_user(gpio)) {
+        fail_pin(spec, value, pins_why_not(gpio));
     }
-    arg->number = (double)arg->integer;
+    arg->integer = gpio;
+    arg->number = (double)gpio;
 }
 
 basic_routine_t args_routine(const char *name, const value_t *value) {

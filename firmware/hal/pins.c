@@ -18,6 +18,16 @@ static const uint8_t board_numbers[PINS_COUNT] = {
     20, 21, 22, 24, 25, 26, 27, 29, 0,  0,  0,  31, 32, 34, 0,
 };
 
+// Header pins that are no GPIO; the same source.
+static const struct {
+    uint8_t board_number;
+    const char *use;
+} other_pins[] = {
+    {3, "ground"},  {8, "ground"},  {13, "ground"}, {18, "ground"},   {23, "ground"},
+    {28, "ground"}, {30, "RUN"},    {33, "ground"}, {35, "ADC_VREF"}, {36, "3.3 V"},
+    {37, "3V3_EN"}, {38, "ground"}, {39, "VSYS"},   {40, "VBUS"},
+};
+
 bool pins_is_user(unsigned gpio) {
     return gpio < PINS_COUNT && (board_numbers[gpio] != 0 || gpio == LED_GPIO);
 }
@@ -33,6 +43,19 @@ unsigned pins_from_board_number(unsigned board_number) {
         }
     }
     return PINS_NONE;
+}
+
+const char *pins_why_not(unsigned gpio) {
+    return gpio < PINS_COUNT ? "used by the board itself" : "valid is GP0 to GP28";
+}
+
+const char *pins_why_not_board_number(unsigned board_number) {
+    for (size_t i = 0; i < COUNT_OF_ARRAY(other_pins); i++) {
+        if (other_pins[i].board_number == board_number) {
+            return other_pins[i].use;
+        }
+    }
+    return "valid is 1 to 40";
 }
 
 const char *pins_name(unsigned gpio) {

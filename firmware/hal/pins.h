@@ -21,6 +21,10 @@ unsigned pins_board_number(unsigned gpio);
 // GPIO of a header pin number, PINS_NONE if that pin is power, ground or control.
 unsigned pins_from_board_number(unsigned board_number);
 
+// Why a GPIO, or a header pin's number, is none a user may have: "ground". A short text.
+const char *pins_why_not(unsigned gpio);
+const char *pins_why_not_board_number(unsigned board_number);
+
 // "GP16 (pin 21)"; "GP25" where there is no header pin; "none". Valid until the fourth next call.
 const char *pins_name(unsigned gpio);
 

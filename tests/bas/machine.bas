@@ -58,6 +58,6 @@ PRINT MM.INFO(NOTHING) '! Unknown MM.INFO subcommand
 '--- MM.INFO about half of something
 PRINT MM.INFO(FREE BEER) '! Invalid syntax
 '--- MM.INFO about no pin
-PRINT MM.INFO(PIN GP99) '! Invalid pin GP99 for pin
+PRINT MM.INFO(PIN GP99) '! Invalid pin GP99 (valid is GP0 to GP28)
 '--- MM.INFO of a word that takes nothing more
 PRINT MM.INFO(UPTIME 3) '! Argument count

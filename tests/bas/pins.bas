@@ -48,9 +48,9 @@ SETPIN GP3, DOUT
 STEPPER INIT '>Stepper initialized, buffer 32
 STEPPER AXIS X, GP2, GP3 '! Pin GP3 (pin 5) is in use by SETPIN DOUT
 '--- pins that are not there
-SETPIN 3, DOUT '! Invalid pin 3 for pin
+SETPIN 3, DOUT '! Invalid pin 3 (ground)
 '--- GPIO numbers that are not there
-SETPIN GP23, DOUT '! Invalid pin GP23 for pin
+SETPIN GP23, DOUT '! Invalid pin GP23 (used by the board itself)
 '--- an unknown use
 SETPIN GP2, BUZZER '! use: BUZZER is invalid (valid is OFF, DIN, DOUT, AIN, ARAW, FIN, PIN, CIN, INTH, INTL, INTB, PWM, PWM0A, PWM0B, PWM1A, PWM1B, PWM...)
 '--- no use at all

@@ -251,11 +251,11 @@ static void test_pins(void) {
     TEST_ASSERT_EQUAL_INT64(0, got[2].integer);
     accept("DRIVE AXIS X,GP1,1-1"); // not a plain 0
     TEST_ASSERT_EQUAL_INT64(0, got[2].integer);
-    reject("DRIVE AXIS X,GP99", "Invalid pin GP99 for step_pin");
-    reject("DRIVE AXIS X,GP23", "Invalid pin GP23 for step_pin");
-    reject("DRIVE AXIS X,-3", "Invalid pin -3 for step_pin");
-    reject("DRIVE AXIS X,\"X\"", "Invalid pin X for step_pin");
-    reject("DRIVE AXIS X,1e18", "Invalid pin 1e+18 for step_pin");
+    reject("DRIVE AXIS X,GP99", "Invalid pin GP99 for step_pin (valid is GP0 to GP28)");
+    reject("DRIVE AXIS X,GP23", "Invalid pin GP23 for step_pin (used by the board itself)");
+    reject("DRIVE AXIS X,-3", "Invalid pin -3 for step_pin (valid is GP0 to GP28)");
+    reject("DRIVE AXIS X,\"X\"", "Invalid pin X for step_pin (valid is GP0 to GP28)");
+    reject("DRIVE AXIS X,1e18", "Invalid pin 1e+18 for step_pin (valid is GP0 to GP28)");
 }
 
 static void test_raw(void) {

@@ -172,12 +172,12 @@ static void test_bare_pin_numbers(void) {
     TEST_ASSERT_EQUAL_STRING(" 5\r\n", answer("PRINT LEVEL(7)"));
     accept("a = 4 : SET a, OFF", "off 2 0");
     accept("SET 4.4, OFF", "off 2 0");
-    reject("SET 3, OFF", "Invalid pin 3 for pin"); // ground
-    reject("SET 0, OFF", "Invalid pin 0 for pin");
-    reject("SET 41, OFF", "Invalid pin 41 for pin");
-    reject("SET -1, OFF", "Invalid pin -1 for pin");
-    reject("SET 1e30, OFF", "Invalid pin 1e+30 for pin");
-    reject("SET GP23, OFF", "Invalid pin GP23 for pin");
+    reject("SET 3, OFF", "Invalid pin 3 (ground)");
+    reject("SET 0, OFF", "Invalid pin 0 (valid is 1 to 40)");
+    reject("SET 41, OFF", "Invalid pin 41 (valid is 1 to 40)");
+    reject("SET -1, OFF", "Invalid pin -1 (valid is 1 to 40)");
+    reject("SET 1e30, OFF", "Invalid pin 1e+30 (valid is 1 to 40)");
+    reject("SET GP23, OFF", "Invalid pin GP23 (used by the board itself)");
     TEST_ASSERT_EQUAL(ERR_OK, basic_set_option(BASIC_PIN_NUMBERS, BASIC_PIN_NUMBERS_GPIO));
     accept("SET 4, OFF", "off 4 0");
     accept("STEP 4", "drive 4");

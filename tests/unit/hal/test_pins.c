@@ -1,6 +1,8 @@
 // Pin names, the header's numbering (Raspberry Pi Pico datasheet, pinout) and reservations.
 #include "hal/pins.h"
 
+#include <string.h>
+
 #include <unity.h>
 
 void setUp(void) {
@@ -58,6 +60,19 @@ static void test_names(void) {
     TEST_ASSERT_EQUAL_STRING("none", pins_name(PINS_NONE));
 }
 
+static void test_why_not(void) {
+    TEST_ASSERT_EQUAL_STRING("used by the board itself", pins_why_not(23));
+    TEST_ASSERT_EQUAL_STRING("valid is GP0 to GP28", pins_why_not(30));
+    TEST_ASSERT_EQUAL_STRING("VBUS", pins_why_not_board_number(40));
+    for (unsigned number = 1; number <= 40; number++) { // each is a GPIO or has a use
+        bool is_gpio = pins_from_board_number(number) != PINS_NONE;
+        bool has_use = strncmp(pins_why_not_board_number(number), "valid", 5) != 0;
+        TEST_ASSERT_TRUE(is_gpio != has_use);
+    }
+    TEST_ASSERT_EQUAL_STRING("valid is 1 to 40", pins_why_not_board_number(0));
+    TEST_ASSERT_EQUAL_STRING("valid is 1 to 40", pins_why_not_board_number(41));
+}
+
 static void test_four_names_at_once(void) {
     const char *first = pins_name(0);
     pins_name(1);
@@ -99,6 +114,7 @@ int main(void) {
     RUN_TEST(test_power_and_control_pins_are_nobodys);
     RUN_TEST(test_user_pins);
     RUN_TEST(test_names);
+    RUN_TEST(test_why_not);
     RUN_TEST(test_four_names_at_once);
     RUN_TEST(test_claim_and_disclaim);
     RUN_TEST(test_impossible_claims);
