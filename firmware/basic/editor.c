@@ -125,9 +125,13 @@ static err_t edit(const char *file, void (*on_break)(void), bool *start) {
 
 err_t editor_edit(const char *file, void (*on_break)(void), bool *start) {
     *start = false;
+    err_t error = editor_store_check(file); // before anything is drawn
+    if (error != ERR_OK) {
+        return error;
+    }
     console_set_full_screen(true);
     console_print("\x1b[?2004h"); // a paste shall come in brackets
-    err_t error = edit(file, on_break, start);
+    error = edit(file, on_break, start);
     console_print("\x1b[?2004l");
     editor_screen_finish();
     console_set_full_screen(false);

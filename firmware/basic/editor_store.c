@@ -21,6 +21,15 @@ static err_t append(const char *bytes, size_t count, bool *after_return) {
     return ERR_OK;
 }
 
+err_t editor_store_check(const char *file) {
+    int handle;
+    err_t error = file != NULL ? files_open(file, FILES_READ, &handle) : ERR_FILE_NOT_FOUND;
+    if (error != ERR_OK) {
+        return error == ERR_FILE_NOT_FOUND ? ERR_OK : error;
+    }
+    return files_close(handle);
+}
+
 static err_t load_file(const char *file) {
     int handle;
     err_t error = files_open(file, FILES_READ, &handle);

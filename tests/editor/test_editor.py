@@ -340,6 +340,13 @@ def test_a_file_is_edited(terminal: ScreenTerminal) -> None:
     assert terminal.rows()[0] == "x"
 
 
+def test_a_file_that_cannot_be_is_refused_before_anything_is_drawn(
+    terminal: ScreenTerminal,
+) -> None:
+    shown = terminal.type('EDIT "a?b"\rPRINT 1\r', b" 1\r\n> ")
+    assert shown == b'EDIT "a?b"\r\nError : Not a file name: a?b.bas\r\n> PRINT 1\r\n 1\r\n> '
+
+
 def test_f2_runs_a_file_as_the_program(terminal: ScreenTerminal) -> None:
     terminal.edit('EDIT "part.bas"')
     assert terminal.type("\x1b[200~PRINT 2*3\x1b[201~" + F2).endswith(b"\r 6\r\n> ")
