@@ -145,7 +145,7 @@ static void compile_words(void) {
             args_compile_command(command);
             return;
         }
-        if (row != WORDS_NONE) {
+        if (row != WORDS_NONE && !statements_is_value()) {
             lexer_next();
             statements_table[row].compile();
             return;

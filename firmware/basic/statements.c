@@ -211,6 +211,18 @@ static bool is_expression(void) {
            exists(token) || symbols_find(SYMBOLS_ROUTINE, 0, token->text, length) != NULL;
 }
 
+bool statements_is_value(void) {
+    bool is_timer = lexer_is_word("TIMER");
+    if (!compiler_at_prompt() || !(is_timer || lexer_is_word("MATH"))) {
+        return false;
+    }
+    const char *start = lexer_now()->text;
+    lexer_next();
+    bool is_value = is_timer ? !lexer_is('=') : lexer_is('(');
+    lexer_go(start);
+    return is_value;
+}
+
 bool statements_compile_other(void) {
     const lexer_token_t *token = lexer_now();
     if (token->kind == LEXER_NAME) {

@@ -15,6 +15,10 @@ typedef struct {
 extern const statements_row_t statements_table[];
 extern const size_t statements_count;
 
+// True for a word that opens a statement but is meant as a value here: at the prompt, TIMER and
+// MATH(...).
+bool statements_is_value(void);
+
 // Assignment, call of a SUB, or (at the prompt) an expression; for a word that opens no statement.
 // False: it is none of these.
 bool statements_compile_other(void);

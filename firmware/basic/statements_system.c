@@ -16,16 +16,7 @@ void statements_pause(void) {
     emit_op(OP_WAIT);
 }
 
-// TIMER = v; TIMER alone, at the prompt, shows it.
 void statements_timer(void) {
-    if (lexer_at_end() && compiler_at_prompt()) {
-        emit_op(OP_FUNCTION);
-        emit_byte((unsigned)words_find(WORDS_FUNCTION, "TIMER", 5));
-        emit_byte(0);
-        emit_action(ACTIONS_PRINT_VALUE, 1);
-        emit_action(ACTIONS_PRINT_LINE, 0);
-        return;
-    }
     lexer_expect('=');
     expressions_compile();
     emit_action(ACTIONS_TIMER, 1);

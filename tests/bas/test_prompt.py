@@ -73,6 +73,8 @@ def test_an_empty_line_does_nothing():
         ("(1+2)*3", " 9"),
         ("7 MOD 4", " 3"),
         ("NOT 0", " 1"),
+        ("MATH(POWER 2, 10)", " 1024"),
+        ("TIMER * 0", " 0"),
     ],
 )
 def test_an_expression_prints_its_value(typed, answer):
