@@ -95,8 +95,11 @@ void basic_boot(void) {
     }
     vm.request = VM_REQUEST_NONE;
     requests_clear();
+    bool has_startup = runner_has_routine("MM.STARTUP");
     err_t error = runner_routine("MM.STARTUP");
-    if (error == ERR_OK && vm.request == VM_REQUEST_NONE && autorun) {
+    if (has_startup && runner_was_broken()) {
+        console_print(autorun ? "AUTORUN is skipped\r\n" : "");
+    } else if (error == ERR_OK && vm.request == VM_REQUEST_NONE && autorun) {
         runner_program();
     } else {
         runner_serve();
@@ -123,7 +126,8 @@ static const char *start_prompt(void) {
     if (console_lost_input()) {
         console_print("Warning: input that the program did not read was lost\r\n");
     }
-    if (!runner_has_routine("MM.PROMPT") || runner_prompt_routine("MM.PROMPT") != ERR_OK) {
+    if (!runner_has_routine("MM.PROMPT") || runner_prompt_routine("MM.PROMPT") != ERR_OK ||
+        runner_was_broken()) {
         return "> ";
     }
     requests_clear();

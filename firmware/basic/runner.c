@@ -22,6 +22,7 @@
 static struct {
     void (*on_break)(void);
     void (*on_error)(void);
+    bool was_broken;
 } runner;
 
 // The line at hand.
@@ -44,6 +45,10 @@ void runner_break(void) {
     runner.on_break();
 }
 
+bool runner_was_broken(void) {
+    return runner.was_broken;
+}
+
 // Runs code to its end and reports what ended it.
 static err_t run(const uint8_t *code, void (*on_error)(void)) {
     uint8_t *scratch = memory.scratch;
@@ -54,7 +59,8 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
     watchdog_set(0);
     console_set_running(false);
     memory.scratch = scratch;
-    if (broken || console_break_pending()) {
+    runner.was_broken = broken || console_break_pending();
+    if (runner.was_broken) {
         runner_break();
     } else if (error != ERR_OK) {
         on_error();

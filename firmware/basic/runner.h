@@ -27,6 +27,9 @@ err_t runner_routine(const char *name);
 // The same as if it was typed at the prompt.
 err_t runner_prompt_routine(const char *name);
 
+// Whether Ctrl-C has ended what ran last.
+bool runner_was_broken(void);
+
 // Does what the code that ran last has asked for, if anything (vm.request).
 void runner_serve(void);
 

@@ -156,6 +156,15 @@ def test_a_program_can_have_its_own_prompt(terminal: ScreenTerminal) -> None:
     terminal.type("\x15NEW\r", b"\r\n> ")
 
 
+def test_ctrl_c_gets_past_a_prompt_that_hangs(terminal: ScreenTerminal) -> None:
+    terminal.type("AUTOSAVE\r", b"\r\n")
+    terminal.type("SUB MM.PROMPT\rPRINT 7;\rDO:LOOP\rEND SUB\r\x1a", b" 7")
+    terminal.type("\x03", b"> ")
+    terminal.type("PRINT 3 + 3\r", b" 6\r\n 7")
+    terminal.type("\x03", b"> ")
+    terminal.type("NEW\r", b"\r\n> ")
+
+
 @pytest.mark.parametrize(
     ("key", "code"),
     [("\x1b[A", 128), ("\x1bOD", 130), ("\x1b[3~", 127), ("\x1b[H", 134), ("\x1b[6~", 137),

@@ -327,6 +327,13 @@ static void test_without_ctrl_c_as_break_key_there_is_time_for_it_at_the_start(v
     TEST_ASSERT_NULL(strstr(shown, " 11"));
 }
 
+static void test_ctrl_c_in_the_startup_keeps_the_program_from_starting(void) {
+    board_session(PROGRAM("PRINT 11\rSUB MM.STARTUP\rPAUSE 1000\rEND SUB") "OPTION AUTORUN ON\r");
+    TEST_ASSERT_EQUAL_STRING(" 11\r\n", boot_shows());
+    board_type_at(board.time_us + 500000, "\x03");
+    TEST_ASSERT_EQUAL_STRING("AUTORUN is skipped\r\n", boot_shows());
+}
+
 static void test_background_and_statements(void) {
     unsigned before = board.statements;
     board_session("FOR i%=1 TO 100:NEXT\r");
@@ -368,6 +375,7 @@ int main(void) {
     RUN_TEST(test_no_change_while_motion_runs);
     RUN_TEST(test_a_board_that_crashed_does_not_start_its_program);
     RUN_TEST(test_without_ctrl_c_as_break_key_there_is_time_for_it_at_the_start);
+    RUN_TEST(test_ctrl_c_in_the_startup_keeps_the_program_from_starting);
     RUN_TEST(test_background_and_statements);
     return UNITY_END();
 }
