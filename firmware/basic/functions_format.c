@@ -12,10 +12,7 @@
 
 static int limited(int64_t value, int least, int most) {
     if (value < least || value > most) {
-        errors_fail_with(ERR_ARGUMENT, "%ld is invalid (valid is %d to %d)",
-                         (long)(value > 99999    ? 99999
-                                : value < -99999 ? -99999
-                                                 : value),
+        errors_fail_with(ERR_ARGUMENT, "%lld is invalid (valid is %d to %d)", (long long)value,
                          least, most);
     }
     return (int)value;
@@ -82,7 +79,8 @@ FUNCTION(str) {
 typedef struct {
     bool left, plus, blank, zeros;
     int width, precision;
-    char letter;             // g, f, e or d
+    char letter;             // g, f or e
+    bool capital;            // it was G or E, and so is the E of the number
     const char *start, *end; // of the specification in the format
 } specification_t;
 
@@ -112,6 +110,7 @@ static void read_specification(const value_t *format, specification_t *out) {
         p = read_count(p + 1, end, &out->precision);
     }
     out->letter = p < end ? (char)(*p | 0x20) : '\0';
+    out->capital = p < end && *p < 'a';
     if (strchr("gfe", out->letter) == NULL || out->letter == '\0') {
         errors_fail(ERR_SYNTAX);
     }
@@ -151,8 +150,9 @@ static size_t lay_out(char *out, const specification_t *how, double number) {
         memset(p, '0', fill);
         p += fill;
     }
-    memcpy(p, shown, length);
-    p += length;
+    for (size_t i = 0; i < length; i++) {
+        *p++ = how->capital && shown[i] == 'e' ? 'E' : shown[i];
+    }
     if (how->left) {
         memset(p, ' ', fill);
         p += fill;

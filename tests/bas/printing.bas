@@ -48,6 +48,8 @@ PRINT STR$(1, 0, 17) '! 17 is invalid (valid is -16 to 16)
 PRINT STR$("a") '! Expected a number
 '--- FORMAT$ of g, f and e
 PRINT FORMAT$(1234567, "%g"); " "; FORMAT$(0.5, "%f"); " "; FORMAT$(0.5, "%e") '>1.235e+06 0.5000 5.0000e-01
+'--- FORMAT$ of G and E
+PRINT FORMAT$(1E6, "%G"); FORMAT$(-12.5, "%9.2E"); FORMAT$(2.5, "%Gm")  '>1E+06-1.25E+012.5m
 '--- FORMAT$ with texts around
 PRINT FORMAT$(2.5, "X%.1f mm") '>X2.5 mm
 '--- FORMAT$ with blanks and zeros
