@@ -193,7 +193,7 @@ void statements_option(void) {
         expressions_compile();
         emit_action(ACTIONS_OPTION, 2);
     } else {
-        errors_fail(ERR_SYNTAX);
+        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "OPTION");
     }
 }
 

@@ -118,7 +118,7 @@ GOTO there
 there: PRINT _
   "there" '>there
 '--- unknown OPTION
-OPTION NONSENSE '! Invalid syntax
+OPTION NONSENSE '! Unknown OPTION subcommand
 '--- OPTION BASE inside arrays by reference
 OPTION BASE 1
 DIM a(3) = (1, 2, 3)

@@ -31,7 +31,7 @@ def test_options_are_kept_and_listed(tmp_path: Path) -> None:
         ("OPTION DISPLAY 1", "lines: 1 is invalid (valid is 2 to 255)"),
         ("OPTION DISPLAY 24,10", "columns: 10 is invalid (valid is 20 to 255)"),
         ("OPTION AUTORUN 1", "Invalid syntax"),
-        ("OPTION NONSENSE", "Invalid syntax"),
+        ("OPTION NONSENSE", "Unknown OPTION subcommand"),
     ],
 )
 def test_bad_options(line: str, error: str) -> None:
