@@ -122,7 +122,8 @@ def test_bad_events_name_the_line(tmp_path: Path) -> None:
     events = tmp_path / "events.csv"
     events.write_text("time_ns,gpio,level\n100,22,0\n100,22,2\n")
     done = run("--inputs", events, code=2)
-    assert done.stderr.decode() == f"stepmite: {events}:3: level must be 0 or 1\n"
+    fault = "level must be 0 or 1, or a voltage, for instance 1.65V"
+    assert done.stderr.decode() == f"stepmite: {events}:3: {fault}\n"
 
 
 # ---- Programs and input --------------------------------------------------------------------------
