@@ -232,8 +232,9 @@ static bool print_language(const char *topic, size_t length) {
         }
     }
     for (size_t i = 0; i < functions_count; i++) {
-        if (lexer_same(topic, length, functions_table[i].name)) {
-            print_line(functions_table[i].help);
+        const functions_row_t *row = &functions_table[i];
+        if (row->help != NULL && lexer_same(topic, length, row->name)) {
+            print_line(row->help);
             found = true;
         }
     }

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "basic/functions.h"
+#include "basic/statements.h"
 #include "basic_cmds/basic_cmds.h"
 
 static const char *const kinds[] = {
@@ -112,6 +114,45 @@ static void print_assignment(const basic_assignment_t *row) {
     print_args(row->args, row->arg_count);
 }
 
+// A bar would end the cell of a table.
+static void print_cell(const char *text, size_t length) {
+    for (size_t i = 0; i < length; i++) {
+        printf("%s%c", text[i] == '|' ? "\\" : "", text[i]);
+    }
+}
+
+static void print_language_row(const char *usage, size_t length, const char *help) {
+    printf("| `");
+    print_cell(usage, length);
+    printf("` | ");
+    print_cell(help, strlen(help));
+    printf(" |\n");
+}
+
+static void print_statements(void) {
+    printf("## Statements\n\nWords of BASIC that every program may use.\n\n"
+           "| statement | what it does |\n| --- | --- |\n");
+    for (size_t i = 0; i < statements_count; i++) {
+        const statements_row_t *row = &statements_table[i];
+        if (row->usage != NULL) {
+            print_language_row(row->usage, strlen(row->usage), row->help);
+        }
+    }
+    printf("\n");
+}
+
+// Their help is "usage: what".
+static void print_functions(void) {
+    printf("## Functions\n\n| function | value |\n| --- | --- |\n");
+    for (size_t i = 0; i < functions_count; i++) {
+        const char *help = functions_table[i].help;
+        if (help != NULL) {
+            const char *colon = strstr(help, ": ");
+            print_language_row(help, (size_t)(colon - help), colon + 2);
+        }
+    }
+}
+
 int main(void) {
     printf("# Command reference\n\n"
            "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
@@ -133,5 +174,7 @@ int main(void) {
     for (size_t i = 0; i < basic_cmds_assignment_count; i++) {
         print_assignment(&basic_cmds_assignments[i]);
     }
+    print_statements();
+    print_functions();
     return 0;
 }
