@@ -67,10 +67,6 @@ typedef struct {
     unsigned positions; // fields without a name so far
 } request_t;
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 // Takes a number in a range. The message names what it was meant for.
 static err_t take_number(const char *name, const char *field, int64_t min, int64_t max,
                          uint32_t *value) {
@@ -148,7 +144,7 @@ static err_t take_fields(basic_text_t text, request_t *request) {
         size_t length = 0;
         for (; i < text.length && text.text[i] != ','; i++) {
             if (text.text[i] != ' ' && length < sizeof field - 1) {
-                field[length++] = upper(text.text[i]);
+                field[length++] = letters_upper(text.text[i]);
             }
         }
         field[length] = '\0';

@@ -163,10 +163,6 @@ static uint64_t over_power_of_ten(binary_t number, int scale) {
     return quick ? result : over_power_of_ten_exactly(number, scale);
 }
 
-uint64_t decimal_power(int n) {
-    return powers_of_ten[n];
-}
-
 // Power of ten of the first digit: right, or one too low.
 static int first_digit(double magnitude, binary_t number) {
     int bits = 64 - __builtin_clzll(number.mantissa) + number.exponent;

@@ -15,7 +15,4 @@ uint64_t decimal_significant(double magnitude, int count, int *exponent);
 // round(magnitude * 10^decimals) for 0..30 decimals, or false if that has more than 17 digits.
 bool decimal_scaled(double magnitude, int decimals, uint64_t *scaled);
 
-// 10^n for n of 0..19.
-uint64_t decimal_power(int n);
-
 #endif

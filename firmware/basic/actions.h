@@ -2,6 +2,7 @@
 #ifndef BASIC_ACTIONS_H
 #define BASIC_ACTIONS_H
 
+#include "basic/basic.h"
 #include "value.h"
 #include "vm.h"
 
@@ -21,6 +22,9 @@ typedef void (*actions_run_t)(value_t *arguments, unsigned count);
 
 // Indexed by actions_t.
 extern const actions_run_t actions_table[ACTIONS_COUNT];
+
+// Takes what CPU RESTART asks first from the configuration (actions_machine.c).
+void actions_start(const basic_config_t *config);
 
 // Ends the program or line and says what the prompt is to do then (actions_system.c).
 void actions_stop_with(vm_request_t request);

@@ -3,7 +3,6 @@
 
 #include "actions.h"
 #include "channels.h"
-#include "console.h"
 #include "errors.h"
 #include "memory.h"
 #include "number_text.h"

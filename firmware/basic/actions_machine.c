@@ -4,7 +4,6 @@
 #include "console.h"
 #include "errors.h"
 #include "hal/hal.h"
-#include "machine.h"
 #include "trace.h"
 #include "watchdog.h"
 
@@ -13,8 +12,8 @@
 
 static err_t (*may_restart)(void);
 
-void machine_start(err_t (*asked)(void)) {
-    may_restart = asked;
+void actions_start(const basic_config_t *config) {
+    may_restart = config->may_restart;
 }
 
 // Files are closed and what was printed has gone out before it happens.

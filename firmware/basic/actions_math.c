@@ -4,7 +4,6 @@
 #include "actions.h"
 #include "arith.h"
 #include "errors.h"
-#include "memory.h"
 #include "sort.h"
 #include "variables.h"
 

@@ -219,10 +219,6 @@ static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count,
 
 // ---- Names of several words ----------------------------------------------------------------------
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static const char *skip_blanks(const char *text, const char *end) {
     while (text < end && (*text == ' ' || *text == '\t')) {
         text++;
@@ -241,7 +237,7 @@ static const char *match_words(const char *name, const char *text) {
                 return NULL;
             }
             text = next;
-        } else if (text < end && upper(*text) == upper(*name)) {
+        } else if (text < end && letters_upper(*text) == letters_upper(*name)) {
             text++;
         } else {
             return NULL;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "actions.h"
 #include "args.h"
 #include "boot.h"
 #include "channels.h"
@@ -11,10 +12,8 @@
 #include "files/files.h"
 #include "help.h"
 #include "line_editor.h"
-#include "machine.h"
 #include "memory.h"
 #include "messages.h"
-#include "number_text.h"
 #include "options.h"
 #include "program.h"
 #include "requests.h"
@@ -45,13 +44,6 @@ static void background(void) {
     }
 }
 
-char *basic_format_number(char *buffer, size_t size, double value) {
-    char text[NUMBER_TEXT_SIZE];
-    number_text_float(text, value);
-    format_text(buffer, size, "%s", text);
-    return buffer;
-}
-
 bool basic_break_pending(void) {
     console_poll();
     return console_break_pending();
@@ -66,11 +58,11 @@ void basic_start(const basic_config_t *new_config) {
     runner_start(config);
     console_start(background, config->on_control);
     line_editor_start();
+    actions_start(config);
     args_start(config);
     channels_start(config);
     complete_start(config);
     help_start(config);
-    machine_start(config->may_restart);
     words_start(config);
     memory_start(config->arena, config->arena_size);
     program_use_text("", 0);

@@ -30,32 +30,35 @@ typedef struct {
 
 // ---- Commands ------------------------------------------------------------------------------------
 
-// How an argument is written, and which field of basic_arg_t it fills.
+// How an argument is written, and behind the arrow the fields of basic_arg_t it fills.
 typedef enum {
-    BASIC_ARG_NUMBER, // numeric expression                                    -> number
-    BASIC_ARG_INTEGER, // numeric expression, rounded half away from zero       -> integer (and number)
-    BASIC_ARG_TEXT,    // string expression                                     -> text
-    BASIC_ARG_CHOICE, // one of the words in `choices`: bare, or a string
-    // expression; a number where the words are numbers      -> integer (its index), text
-    BASIC_ARG_WORD, // a bare word, or a string expression                   -> text
-    BASIC_ARG_PIN,  // GPn, "GPn", or a number: a GPIO number, or the board's with
-    // BASIC_ARG_BOARD_NUMBER; see BASIC_PIN_NUMBERS. With
-    // BASIC_ARG_OPTIONAL a literal 0 or blank means no pin  -> integer (GPIO or PINS_NONE)
-    BASIC_ARG_ROUTINE, // the name of a SUB without parameters, bare or a string expression; a literal 0
-    // or blank means none                                                  -> integer
-    BASIC_ARG_RAW, // the rest of the statement as typed, comment included; ends at a colon outside
-                   // quotes, parentheses and comments                      -> text
+    BASIC_ARG_NUMBER,  // numeric expression -> number
+    BASIC_ARG_INTEGER, // the same, rounded half away from zero -> integer, number
+    BASIC_ARG_TEXT,    // string expression -> text
+    // One of the words in `choices`, bare or as a string expression; a number where the words are
+    // numbers -> integer (its index), text
+    BASIC_ARG_CHOICE,
+    BASIC_ARG_WORD, // a bare word, or a string expression -> text
+    // GPn, "GPn", or a number: a GPIO number, or the board's with BASIC_ARG_BOARD_NUMBER; see
+    // BASIC_PIN_NUMBERS. With BASIC_ARG_OPTIONAL a literal 0 or blank means no pin
+    // -> integer (GPIO or PINS_NONE)
+    BASIC_ARG_PIN,
+    // The name of a SUB without parameters, bare or as a string expression; a literal 0 or blank
+    // means none -> integer (a basic_routine_t)
+    BASIC_ARG_ROUTINE,
+    // The rest of the statement as typed, comment included; ends at a colon outside quotes,
+    // parentheses and comments -> text
+    BASIC_ARG_RAW,
 } basic_arg_kind_t;
 
 enum {
-    BASIC_ARG_OPTIONAL = 1 << 0, // may be left out or left blank
-    BASIC_ARG_DEFAULT = 1 << 1,  // if left out, `fallback` is delivered and `given` stays false
-    BASIC_ARG_REPEAT = 1
-        << 2, // this and the following arguments repeat as a group, 0 or more times
-    BASIC_ARG_ABOVE_MIN = 1 << 3,    // the minimum itself is not allowed
+    BASIC_ARG_OPTIONAL = 1 << 0,  // may be left out or left blank
+    BASIC_ARG_DEFAULT = 1 << 1,   // if left out, `fallback` is delivered and `given` stays false
+    BASIC_ARG_REPEAT = 1 << 2,    // this one and those behind it repeat as a group, 0 or more times
+    BASIC_ARG_ABOVE_MIN = 1 << 3, // the minimum itself is not allowed
     BASIC_ARG_BOARD_NUMBER = 1 << 4, // PIN: a bare number is the one printed beside the board's pin
-    // CHOICE: of several rows with one name, which stand together, a bare word here that is one of `choices` takes this row. A row
-    // without such an argument is taken if no other is.
+    // CHOICE: of several rows with one name, which stand together, a bare word here that is one of
+    // `choices` takes this row. A row without such an argument is taken if no other is.
     BASIC_ARG_SELECTS = 1 << 5
 };
 
@@ -154,9 +157,10 @@ typedef struct {
     size_t function_count;
     const basic_assignment_t *assignments; // one row for each name
     size_t assignment_count;
-    void (*background)(
-        void);              // called every few statements and whenever something waits; NULL: none
-    void (*on_break)(void); // called once when the user pressed Ctrl-C; NULL: none
+    // Called every few statements and whenever something waits; NULL: none.
+    void (*background)(void);
+    // Called once when the user pressed Ctrl-C; NULL: none.
+    void (*on_break)(void);
     // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL: none.
     void (*on_clear)(void);
     // An error has ended a program (not a line at the prompt), before it is printed. NULL: none.
@@ -196,9 +200,6 @@ void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)))
 // own: a line being typed is taken away and drawn again below. Shown at the next place where that can be
 // done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-// Writes `value` as PRINT does, without the leading blank. Returns `buffer`.
-char *basic_format_number(char *buffer, size_t size, double value);
 
 // A setting of the product that outlives power-off: what was set, or the fallback. The name is that of the
 // command that sets it, without OPTION. Quick enough to be asked each time.

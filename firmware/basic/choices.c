@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "lexer.h"
+#include "base/base.h"
 
 const char *choices_get(const char *choices, int index, size_t *length) {
     while (index-- > 0) {
@@ -13,21 +13,10 @@ const char *choices_get(const char *choices, int index, size_t *length) {
     return choices;
 }
 
-static bool same(const char *a, const char *b, size_t length) {
-    for (size_t i = 0; i < length; i++) {
-        char x = a[i] >= 'a' && a[i] <= 'z' ? (char)(a[i] - 0x20) : a[i];
-        char y = b[i] >= 'a' && b[i] <= 'z' ? (char)(b[i] - 0x20) : b[i];
-        if (x != y) {
-            return false;
-        }
-    }
-    return true;
-}
-
 int choices_find(const char *choices, const char *text, size_t length) {
     for (int index = 0; choices != NULL; index++) {
         size_t word_length = strcspn(choices, "|");
-        if (word_length == length && same(choices, text, length)) {
+        if (word_length == length && letters_same(choices, text, length)) {
             return index;
         }
         choices = choices[word_length] == '|' ? choices + word_length + 1 : NULL;

@@ -31,14 +31,6 @@ void complete_start(const basic_config_t *new_config) {
     config = new_config;
 }
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
-static char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c + 0x20) : c;
-}
-
 // ---- Where the word is --------------------------------------------------------------------------
 
 static bool is_word(const char *text, size_t length, const char *word) {
@@ -96,7 +88,7 @@ static void offer(size_t start, const char *name, size_t length, char after) {
     }
     for (size_t i = 0; i < typed; i++) {
         bool same = at.in_string ? name[i] == at.line[start + i]
-                                 : upper(name[i]) == upper(at.line[start + i]);
+                                 : letters_upper(name[i]) == letters_upper(at.line[start + i]);
         if (!same) {
             return;
         }
@@ -187,7 +179,7 @@ static void each_candidate(const char *line, size_t cursor, complete_t *result, 
 // ---- What comes of them -------------------------------------------------------------------------
 
 static char as_typed(char c) {
-    return at.in_string ? c : at.lower ? lower(c) : upper(c);
+    return at.in_string ? c : at.lower ? letters_lower(c) : letters_upper(c);
 }
 
 // Keeps what all candidates have in common.

@@ -4,6 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "editor_view.h"
 #include "keys.h"
 
@@ -56,9 +57,9 @@ char editor_ask_key(const char *question, const char *keys) {
         if (gives_up(key)) {
             return '\0';
         }
-        key = key >= 'a' && key <= 'z' ? key - 0x20 : key;
-        if (key > 0 && key < 128 && strchr(keys, key) != NULL) {
-            return (char)key;
+        char letter = key > 0 && key < 128 ? letters_upper((char)key) : '\0';
+        if (letter != '\0' && strchr(keys, letter) != NULL) {
+            return letter;
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/base.h"
 #include "console.h"
 #include "editor_ask.h"
 #include "editor_cursor.h"
@@ -20,13 +21,10 @@ static struct {
     char replacement[FIND_SIZE];
 } find;
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static bool is_at(size_t place) {
     size_t i = 0;
-    while (find.wanted[i] != '\0' && upper(editor_text_at(place + i)) == upper(find.wanted[i])) {
+    while (find.wanted[i] != '\0' &&
+           letters_upper(editor_text_at(place + i)) == letters_upper(find.wanted[i])) {
         i++;
     }
     return find.wanted[i] == '\0';

@@ -73,7 +73,8 @@ unsigned editor_screen_columns(void) {
 
 // ---- A row --------------------------------------------------------------------------------------
 
-bool editor_screen_has(int code) {
+// True if a cell can show the character.
+static bool has(int code) {
     return (code >= ' ' && code < 0x7F) || (code >= 0xA0 && code < MARKS_BEGIN) ||
            (code >= MARKS_END && code < CODES_END) ||
            (code >= UPPER_CODES + 0x10 && code < UPPER_CODES + 0x1000);
@@ -83,7 +84,7 @@ void editor_screen_put(int code, editor_screen_look_t look) {
     if (screen.filled == screen.columns - 1) {
         return;
     }
-    if (!editor_screen_has(code)) {
+    if (!has(code)) {
         code = '?';
     }
     unsigned cell = (unsigned)(code >= UPPER_CODES ? code - UPPER_CODES + UPPER_CELLS : code);

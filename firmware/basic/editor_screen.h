@@ -39,9 +39,6 @@ void editor_screen_shift(unsigned first, unsigned end, int lines);
 // Where the terminal's cursor is to stand. Sent at once.
 void editor_screen_set_cursor(unsigned row, unsigned column);
 
-// True if a cell can show the character.
-bool editor_screen_has(int code);
-
 // Leaves the terminal clear and as it was before.
 void editor_screen_finish(void);
 

@@ -39,18 +39,16 @@ const char *file_names_split(const char *path, const char **pattern) {
     return folder;
 }
 
-static char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? (char)(c | 0x20) : c;
-}
-
-bool file_names_match(const char *pattern, const char *name) {
+// `pattern` may have * and ?.
+static bool matches(const char *pattern, const char *name) {
     const char *star = NULL; // the last * met, and where it was tried up to
     const char *tried = NULL;
     while (*name != '\0') {
         if (*pattern == '*') {
             star = pattern++;
             tried = name;
-        } else if (*pattern == '?' || (*pattern != '\0' && lower(*pattern) == lower(*name))) {
+        } else if (*pattern == '?' ||
+                   (*pattern != '\0' && letters_lower(*pattern) == letters_lower(*name))) {
             pattern++;
             name++;
         } else if (star != NULL) {
@@ -69,7 +67,7 @@ bool file_names_match(const char *pattern, const char *name) {
 bool file_names_next(const char *pattern, file_names_kind_t kind, files_entry_t *entry) {
     while (files_list_next(entry)) {
         bool of_kind = kind == FILE_NAMES_ALL || entry->is_folder == (kind == FILE_NAMES_FOLDERS);
-        if (of_kind && file_names_match(pattern, entry->name)) {
+        if (of_kind && matches(pattern, entry->name)) {
             return true;
         }
     }

@@ -17,13 +17,11 @@ bool file_names_is_pattern(const char *path);
 // part of `path`.
 const char *file_names_split(const char *path, const char **pattern);
 
-// True if `name` fits: * is any text, ? any character, capitals do not matter.
-bool file_names_match(const char *pattern, const char *name);
-
 // Which entries a list takes.
 typedef enum { FILE_NAMES_FILES, FILE_NAMES_FOLDERS, FILE_NAMES_ALL } file_names_kind_t;
 
-// The next entry of the list that fits; false: there is none.
+// The next entry of the list whose name fits the pattern (* is any text, ? any character, capitals
+// do not matter); false: there is none.
 bool file_names_next(const char *pattern, file_names_kind_t kind, files_entry_t *entry);
 
 // <0, 0, >0: how two names follow each other in a list.

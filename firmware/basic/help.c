@@ -184,18 +184,10 @@ static void print_assignment(const basic_assignment_t *row) {
     print_arguments(row->args, row->arg_count);
 }
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 // True if `name` starts with the topic and a word ends there.
 static bool starts_with(const char *name, const char *topic, size_t length) {
-    for (size_t i = 0; i < length; i++) {
-        if (upper(name[i]) != upper(topic[i])) { // the end of `name` differs as well
-            return false;
-        }
-    }
-    return name[length] == ' ' || name[length] == '\0';
+    return letters_same(name, topic, length) && // not beyond the end of `name`, which differs
+           (name[length] == ' ' || name[length] == '\0');
 }
 
 // Rows whose name is the topic are explained; rows it only starts are listed.

@@ -205,13 +205,9 @@ bool lexer_else_ends(void) {
     return lexer.else_ends;
 }
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 bool lexer_same(const char *text, size_t length, const char *word) {
     for (size_t i = 0; i < length; i++) {
-        if (upper(text[i]) != upper(word[i]) || word[i] == '\0') {
+        if (letters_upper(text[i]) != letters_upper(word[i]) || word[i] == '\0') {
             return false;
         }
     }

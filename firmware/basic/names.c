@@ -103,20 +103,8 @@ uint8_t names_default_type(void) {
     return names.default_type;
 }
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static bool same_name(const char *one, size_t one_length, const char *other, size_t length) {
-    if (one_length != length) {
-        return false;
-    }
-    for (size_t i = 0; i < length; i++) {
-        if (upper(one[i]) != upper(other[i])) {
-            return false;
-        }
-    }
-    return true;
+    return one_length == length && letters_same(one, other, length);
 }
 
 static int find_running_local(const char *text, size_t length) {
@@ -149,7 +137,7 @@ static int find_local(const char *text, size_t length) {
 static _Noreturn void fail_different(const char *text, size_t length) {
     char name[SYMBOLS_NAME_MAX + 1] = "";
     for (size_t i = 0; i < length && i < SYMBOLS_NAME_MAX; i++) {
-        name[i] = upper(text[i]);
+        name[i] = letters_upper(text[i]);
     }
     errors_fail_with(ERR_DIFFERENT_TYPE, "%s", name);
 }
@@ -253,7 +241,7 @@ static size_t check_new_name(const lexer_token_t *name) {
         symbols_find(SYMBOLS_VARIABLE, names_scope(), name->text, length) != NULL) {
         char known[SYMBOLS_NAME_MAX + 1] = "";
         for (size_t i = 0; i < length; i++) {
-            known[i] = upper(name->text[i]);
+            known[i] = letters_upper(name->text[i]);
         }
         errors_fail_with(ERR_ALREADY_DECLARED, "%s", known);
     }

@@ -12,13 +12,9 @@ static uint8_t *place_of(const variables_array_t *array, uint32_t index) {
     return array->elements + (size_t)index * variables_element_size(array);
 }
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static int compare_ignoring_case(const value_t *left, const value_t *right) {
     for (uint32_t i = 0; i < left->length && i < right->length; i++) {
-        int order = (uint8_t)upper(left->text[i]) - (uint8_t)upper(right->text[i]);
+        int order = (uint8_t)letters_upper(left->text[i]) - (uint8_t)letters_upper(right->text[i]);
         if (order != 0) {
             return order;
         }

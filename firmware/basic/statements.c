@@ -3,7 +3,6 @@
 // Context: main loop, while compiling.
 #include "statements.h"
 
-#include "args.h"
 #include "base/base.h"
 #include "compiler.h"
 #include "emit.h"

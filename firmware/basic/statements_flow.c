@@ -5,7 +5,6 @@
 #include "emit.h"
 #include "errors.h"
 #include "expressions.h"
-#include "functions.h"
 #include "labels.h"
 #include "lexer.h"
 #include "names.h"

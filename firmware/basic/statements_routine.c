@@ -6,7 +6,6 @@
 #include "errors.h"
 #include "expressions.h"
 #include "lexer.h"
-#include "memory.h"
 #include "names.h"
 #include "statements.h"
 #include "symbols.h"

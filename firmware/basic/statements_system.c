@@ -8,7 +8,6 @@
 #include "names.h"
 #include "options.h"
 #include "statements.h"
-#include "words.h"
 
 void statements_pause(void) {
     expressions_compile();

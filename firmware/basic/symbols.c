@@ -13,14 +13,10 @@ static struct {
     bool program_mode;
 } symbols;
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static unsigned bucket_of(symbols_kind_t kind, const char *name, size_t length) {
     unsigned hash = (unsigned)kind;
     for (size_t i = 0; i < length; i++) {
-        hash = hash * 31 + (unsigned char)upper(name[i]);
+        hash = hash * 31 + (unsigned char)letters_upper(name[i]);
     }
     return (hash ^ hash >> 6) % BUCKETS;
 }
@@ -34,15 +30,7 @@ void symbols_set_program_mode(bool program) {
 }
 
 static bool has_name(const symbols_t *symbol, const char *name, size_t length) {
-    if (symbol->length != length) {
-        return false;
-    }
-    for (size_t i = 0; i < length; i++) {
-        if (symbol->name[i] != upper(name[i])) {
-            return false;
-        }
-    }
-    return true;
+    return symbol->length == length && letters_same(symbol->name, name, length);
 }
 
 symbols_t *symbols_find(symbols_kind_t kind, uint16_t scope, const char *name, size_t length) {
@@ -75,7 +63,7 @@ symbols_t *symbols_get(symbols_kind_t kind, uint16_t scope, const char *name, si
     symbol->type = VALUE_NONE;
     symbol->length = (uint8_t)length;
     for (size_t i = 0; i < length; i++) {
-        symbol->name[i] = upper(name[i]);
+        symbol->name[i] = letters_upper(name[i]);
     }
     if (kind == SYMBOLS_VARIABLE) {
         symbol->value.type = VALUE_NONE;

@@ -21,7 +21,7 @@ const char *variables_name(uint16_t variable) {
         size_t length;
         const char *text = names_of_local(calls_routine(), variable & ~CODE_LOCAL_FLAG, &length);
         for (size_t i = 0; i < length; i++) {
-            name[i] = text[i] >= 'a' && text[i] <= 'z' ? (char)(text[i] - 0x20) : text[i];
+            name[i] = letters_upper(text[i]);
         }
         name[length] = '\0';
         return name;
@@ -53,7 +53,8 @@ static char *allocate_text(bool passing, unsigned capacity) {
     return bytes;
 }
 
-void variables_make_string(uint16_t variable, unsigned capacity) {
+// Gives a variable an empty string of its own.
+static void make_string(uint16_t variable, unsigned capacity) {
     char *bytes = allocate_text(is_local(variable), capacity);
     value_t *slot = variables_slot(variable);
     slot->data = bytes;
@@ -73,7 +74,7 @@ static void make_scalar(uint16_t variable, uint8_t type, unsigned capacity) {
     value_t *slot = variables_slot(variable);
     slot->flags = 0;
     if (type == VALUE_STRING) {
-        variables_make_string(variable, capacity);
+        make_string(variable, capacity);
     } else {
         slot->integer = 0; // all bits 0 is 0.0 as well
         slot->type = type;

@@ -21,10 +21,6 @@ static const char *const reserved[] = {
     "NOT", "OR", "STEP", "SUB",  "FUNCTION", "THEN",  "TO",   "UNTIL", "XOR",
 };
 
-static char upper(char c) {
-    return c >= 'a' && c <= 'z' ? (char)(c - 0x20) : c;
-}
-
 static const char *name_of(words_kind_t kind, size_t row) {
     switch (kind) {
     case WORDS_STATEMENT:
@@ -45,19 +41,15 @@ static bool is_word(uint16_t slot, words_kind_t kind, const char *text, size_t l
         return false;
     }
     const char *name = name_of(kind, (slot - 1u) % WORDS_ROWS_MAX);
-    for (size_t i = 0; i < length; i++) {
-        if (upper(name[i]) != upper(text[i])) { // the end of the name differs as well
-            return false;
-        }
-    }
-    return name[length] == '\0' || name[length] == ' ';
+    return letters_same(name, text, length) && // not beyond the end of the name, which differs
+           (name[length] == '\0' || name[length] == ' ');
 }
 
 // The slot that holds the word, or the free one where it belongs.
 static uint16_t *slot_of(words_kind_t kind, const char *text, size_t length) {
     unsigned hash = (unsigned)kind;
     for (size_t i = 0; i < length; i++) {
-        hash = hash * 31 + (unsigned char)upper(text[i]);
+        hash = hash * 31 + (unsigned char)letters_upper(text[i]);
     }
     hash ^= hash >> 9;
     while (words.slots[hash % SLOTS] != 0 &&

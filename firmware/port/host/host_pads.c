@@ -109,7 +109,3 @@ void host_pads_drive(unsigned gpio, bool level) {
     set_bits(&pads.driven_levels, mask, level);
     settle(pads.outputs);
 }
-
-uint32_t host_pads_outputs(void) {
-    return pads.outputs;
-}

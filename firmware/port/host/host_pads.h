@@ -10,7 +10,4 @@
 // output the firmware wins and this level is seen when it becomes an input.
 void host_pads_drive(unsigned gpio, bool level);
 
-// Which pins are outputs, as a mask.
-uint32_t host_pads_outputs(void);
-
 #endif

@@ -118,12 +118,6 @@ static void test_a_notice_within_output(void) {
                              board_session("WARN\r"));
 }
 
-static void test_format_number(void) {
-    char text[40];
-    TEST_ASSERT_EQUAL_STRING("0.3333333333", basic_format_number(text, sizeof text, 1.0 / 3.0));
-    TEST_ASSERT_EQUAL_STRING("0.3", basic_format_number(text, 4, 1.0 / 3.0));
-}
-
 // ---- Keys ----------------------------------------------------------------------------------------
 
 static void test_a_sequence_may_come_in_pieces(void) {
@@ -369,7 +363,6 @@ int main(void) {
     RUN_TEST(test_a_control_with_nothing_to_act_on_is_input);
     RUN_TEST(test_a_control_of_a_script_waits_for_its_turn);
     RUN_TEST(test_nothing_acts_in_raw_mode);
-    RUN_TEST(test_format_number);
     RUN_TEST(test_the_program_survives_a_restart);
     RUN_TEST(test_power_lost_while_writing_leaves_the_old_program);
     RUN_TEST(test_no_change_while_motion_runs);
