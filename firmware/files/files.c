@@ -23,30 +23,30 @@ static struct {
     unsigned closing;
 } files;
 
-static err_t call_volume(bool writes, volume_work_t work, const volume_call_t *call,
+static err_t call_volume(bool writes, files_volume_work_t work, const files_volume_call_t *call,
                          lfs_ssize_t *result) {
-    return writes ? volume_write(work, call, result) : volume_read(work, call, result);
+    return writes ? files_volume_write(work, call, result) : files_volume_read(work, call, result);
 }
 
-static lfs_ssize_t do_open(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_open(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_opencfg(lfs, call->file, call->path, call->flags, call->config);
 }
 
-static lfs_ssize_t do_close(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_close(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_close(lfs, call->file);
 }
 
-static lfs_ssize_t do_sync(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_sync(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_sync(lfs, call->file);
 }
 
-static lfs_ssize_t do_read(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_read(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_read(lfs, call->file, call->bytes, call->size);
 }
 
 // A full disk is found before a further block is begun, so all that came until then is in order. Marked as
 // faulty the file would be left as it was when it was opened.
-static lfs_ssize_t do_write(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_write(lfs_t *lfs, const files_volume_call_t *call) {
     lfs_ssize_t result = lfs_file_write(lfs, call->file, call->source, call->size);
     if (result == LFS_ERR_NOSPC) {
         call->file->flags &= ~(uint32_t)LFS_F_ERRED;
@@ -54,7 +54,7 @@ static lfs_ssize_t do_write(lfs_t *lfs, const volume_call_t *call) {
     return result;
 }
 
-static lfs_ssize_t do_seek(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_seek(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_seek(lfs, call->file, (lfs_soff_t)call->size, LFS_SEEK_SET);
 }
 
@@ -62,16 +62,16 @@ static lfs_ssize_t do_seek(lfs_t *lfs, const volume_call_t *call) {
 
 err_t files_start(void) {
     memset(&files, 0, sizeof files);
-    if (!volume_start()) {
+    if (!files_volume_start()) {
         return err_raise(ERR_FILES_DAMAGED, NULL);
     }
-    names_clean_up();
+    files_names_clean_up();
     files_change_folder("/");
     return ERR_OK;
 }
 
 err_t files_format(void) {
-    err_t error = volume_format();
+    err_t error = files_volume_format();
     if (error == ERR_OK) {
         memset(&files, 0, sizeof files);
         files_change_folder("/");
@@ -88,7 +88,7 @@ static bool is_same(const lfs_file_t *a, const lfs_file_t *b) {
 }
 
 static bool is_lost(const handle_t *handle) {
-    return handle->generation != volume_generation();
+    return handle->generation != files_volume_generation();
 }
 
 static bool is_opened(const lfs_file_t *file, bool for_writing) {
@@ -103,16 +103,17 @@ static bool is_opened(const lfs_file_t *file, bool for_writing) {
 }
 
 // littlefs would let a file be changed under the feet of those who read it.
-err_t names_check_unused(const char *path) {
+err_t files_names_check_unused(const char *path) {
     lfs_file_t file;
     uint8_t buffer[FILES_BUFFER];
     struct lfs_file_config config = {.buffer = buffer};
-    volume_call_t call = {.path = path, .file = &file, .config = &config, .flags = LFS_O_RDONLY};
-    if (volume_read(do_open, &call, NULL) != ERR_OK) {
+    files_volume_call_t call = {
+        .path = path, .file = &file, .config = &config, .flags = LFS_O_RDONLY};
+    if (files_volume_read(do_open, &call, NULL) != ERR_OK) {
         return ERR_OK; // a folder, or nothing: littlefs will tell
     }
     bool used = is_opened(&file, true);
-    volume_read(do_close, &call, NULL);
+    files_volume_read(do_close, &call, NULL);
     return used ? err_raise(ERR_FILE_IN_USE, "%s", path) : ERR_OK;
 }
 
@@ -136,17 +137,17 @@ static err_t open_handle(handle_t *handle, const char *path, files_mode_t mode) 
     memset(handle, 0, sizeof *handle);
     handle->config.buffer = handle->buffer;
     handle->mode = (uint8_t)mode;
-    volume_call_t call = {
+    files_volume_call_t call = {
         .path = path, .file = &handle->file, .config = &handle->config, .flags = flags[mode]};
     err_t error = call_volume(mode != FILES_READ, do_open, &call, NULL);
     if (error != ERR_OK) {
         return error;
     }
     handle->open = true;
-    handle->generation = volume_generation();
+    handle->generation = files_volume_generation();
     if (mode == FILES_READ && is_opened(&handle->file, false)) {
         handle->open = false;
-        volume_read(do_close, &call, NULL);
+        files_volume_read(do_close, &call, NULL);
         return err_raise(ERR_FILE_IN_USE, "%s", path);
     }
     return ERR_OK;
@@ -154,9 +155,9 @@ static err_t open_handle(handle_t *handle, const char *path, files_mode_t mode) 
 
 err_t files_open(const char *path, files_mode_t mode, int *number) {
     files_path_t place;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     if (error == ERR_OK && mode != FILES_READ) {
-        error = names_check_unused(place.text);
+        error = files_names_check_unused(place.text);
     }
     if (error != ERR_OK) {
         return error;
@@ -204,7 +205,7 @@ err_t files_read(int number, void *bytes, size_t size, size_t *got) {
     if (error != ERR_OK) {
         return error;
     }
-    volume_call_t call = {.file = &handle->file, .bytes = bytes, .size = (lfs_size_t)size};
+    files_volume_call_t call = {.file = &handle->file, .bytes = bytes, .size = (lfs_size_t)size};
     lfs_ssize_t result;
     error = call_volume(has_unwritten(handle), do_read, &call, &result);
     *got = error == ERR_OK ? (size_t)result : 0;
@@ -217,7 +218,7 @@ err_t files_write(int number, const void *bytes, size_t size) {
     if (error != ERR_OK) {
         return error;
     }
-    volume_call_t call = {.file = &handle->file, .source = bytes, .size = (lfs_size_t)size};
+    files_volume_call_t call = {.file = &handle->file, .source = bytes, .size = (lfs_size_t)size};
     return call_volume(!fits_buffer(handle, size), do_write, &call, NULL);
 }
 
@@ -227,8 +228,8 @@ err_t files_flush(int number) {
     if (error != ERR_OK) {
         return error;
     }
-    volume_call_t call = {.file = &handle->file};
-    return volume_write(do_sync, &call, NULL);
+    files_volume_call_t call = {.file = &handle->file};
+    return files_volume_write(do_sync, &call, NULL);
 }
 
 err_t files_seek(int number, uint32_t position) {
@@ -239,7 +240,7 @@ err_t files_seek(int number, uint32_t position) {
     if (position > files_size(number)) {
         return err_raise(ERR_FILE_POSITION, NULL);
     }
-    volume_call_t call = {.file = &handle->file, .size = position};
+    files_volume_call_t call = {.file = &handle->file, .size = position};
     return call_volume(has_unwritten(handle), do_seek, &call, NULL);
 }
 
@@ -257,7 +258,7 @@ uint32_t files_position(int number) {
 
 static err_t close_now(handle_t *handle) {
     bool writes = handle->mode != FILES_READ;
-    volume_call_t call = {.file = &handle->file};
+    files_volume_call_t call = {.file = &handle->file};
     handle->open = false;
     return is_lost(handle) ? ERR_OK : call_volume(writes, do_close, &call, NULL);
 }
@@ -275,19 +276,11 @@ err_t files_close(int number) {
 // littlefs does not store a file that has met an error.
 void files_abandon(int number) {
     handle_t *handle = &files.handles[number];
-    volume_call_t call = {.file = &handle->file};
+    files_volume_call_t call = {.file = &handle->file};
     handle->open = false;
     handle->file.flags |= LFS_F_ERRED;
     if (!is_lost(handle)) {
-        volume_read(do_close, &call, NULL);
-    }
-}
-
-void files_close_all(void) {
-    for (int i = 0; i < FILES_OPEN_MAX; i++) {
-        if (files.handles[i].open) {
-            files_close(i);
-        }
+        files_volume_read(do_close, &call, NULL);
     }
 }
 

@@ -44,7 +44,6 @@ err_t files_open(const char *path, files_mode_t mode, int *handle);
 // The handle is free, whatever comes of it. Errors: disk full. While motion is under way a file that was
 // written is closed as soon as it has ended.
 err_t files_close(int handle);
-void files_close_all(void);
 
 // Closes it without what was written since it was opened or flushed.
 void files_abandon(int handle);

@@ -13,61 +13,61 @@ static struct {
     unsigned number;
 } list;
 
-static lfs_ssize_t do_make(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_make(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_mkdir(lfs, call->path);
 }
 
-static lfs_ssize_t do_remove(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_remove(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_remove(lfs, call->path);
 }
 
-static lfs_ssize_t do_open_list(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_open_list(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_dir_open(lfs, call->folder, call->path);
 }
 
-static lfs_ssize_t do_read_list(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_read_list(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_dir_read(lfs, call->folder, call->info);
 }
 
-static lfs_ssize_t do_close_list(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_close_list(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_dir_close(lfs, call->folder);
 }
 
-static lfs_ssize_t do_measure(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_measure(lfs_t *lfs, const files_volume_call_t *call) {
     (void)call;
     return lfs_fs_size(lfs);
 }
 
 err_t files_make_folder(const char *path) {
     files_path_t place;
-    err_t error = path_resolve(path, &place);
-    volume_call_t call = {.path = place.text};
-    return error != ERR_OK ? error : volume_write(do_make, &call, NULL);
+    err_t error = files_path_resolve(path, &place);
+    files_volume_call_t call = {.path = place.text};
+    return error != ERR_OK ? error : files_volume_write(do_make, &call, NULL);
 }
 
 err_t files_remove_folder(const char *path) {
     files_path_t place;
     files_entry_t entry;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     if (error == ERR_OK) {
         error = files_info(path, &entry);
     }
     if (error == ERR_OK && !entry.is_folder) {
         error = err_raise(ERR_NOT_A_FOLDER, "%s", place.text);
     }
-    if (error == ERR_OK && path_is_inside(files_folder(), place.text)) {
+    if (error == ERR_OK && files_path_is_inside(files_folder(), place.text)) {
         error = err_raise(ERR_FOLDER_IN_USE, "%s", place.text);
     }
-    volume_call_t call = {.path = place.text};
-    return error != ERR_OK ? error : volume_write(do_remove, &call, NULL);
+    files_volume_call_t call = {.path = place.text};
+    return error != ERR_OK ? error : files_volume_write(do_remove, &call, NULL);
 }
 
 // ---- Lists ---------------------------------------------------------------------------------------
 
 static void end_list(void) {
-    if (list.open && list.generation == volume_generation()) {
-        volume_call_t call = {.folder = &list.folder};
-        volume_read(do_close_list, &call, NULL);
+    if (list.open && list.generation == files_volume_generation()) {
+        files_volume_call_t call = {.folder = &list.folder};
+        files_volume_read(do_close_list, &call, NULL);
     }
     list.open = false;
 }
@@ -77,7 +77,7 @@ err_t files_list_start(const char *folder) {
     list.number++;
     files_path_t place;
     files_entry_t entry;
-    err_t error = path_resolve(folder, &place);
+    err_t error = files_path_resolve(folder, &place);
     if (error == ERR_OK) {
         error = files_info(folder, &entry);
     }
@@ -87,11 +87,11 @@ err_t files_list_start(const char *folder) {
     if (error != ERR_OK) {
         return error;
     }
-    volume_call_t call = {.folder = &list.folder, .path = place.text};
+    files_volume_call_t call = {.folder = &list.folder, .path = place.text};
     lfs_ssize_t result;
-    error = volume_read(do_open_list, &call, &result);
+    error = files_volume_read(do_open_list, &call, &result);
     list.open = error == ERR_OK;
-    list.generation = volume_generation();
+    list.generation = files_volume_generation();
     return result == LFS_ERR_NOENT ? ERR_OK : error; // no file system yet: an empty root
 }
 
@@ -101,11 +101,11 @@ unsigned files_list_number(void) {
 
 bool files_list_next(files_entry_t *entry) {
     struct lfs_info info;
-    volume_call_t call = {.folder = &list.folder, .info = &info};
+    files_volume_call_t call = {.folder = &list.folder, .info = &info};
     lfs_ssize_t result;
     do {
-        if (!list.open || list.generation != volume_generation() ||
-            volume_read(do_read_list, &call, &result) != ERR_OK || result == 0) {
+        if (!list.open || list.generation != files_volume_generation() ||
+            files_volume_read(do_read_list, &call, &result) != ERR_OK || result == 0) {
             end_list();
             return false;
         }
@@ -117,10 +117,10 @@ bool files_list_next(files_entry_t *entry) {
 }
 
 err_t files_space(uint32_t *total, uint32_t *used) {
-    volume_call_t call = {0};
+    files_volume_call_t call = {0};
     lfs_ssize_t blocks;
-    err_t error = volume_read(do_measure, &call, &blocks);
-    *total = VOLUME_BLOCKS * HAL_STORAGE_SECTOR;
+    err_t error = files_volume_read(do_measure, &call, &blocks);
+    *total = FILES_VOLUME_BLOCKS * HAL_STORAGE_SECTOR;
     *used = error == ERR_OK ? (uint32_t)blocks * HAL_STORAGE_SECTOR : 0;
     return blocks == LFS_ERR_NOENT ? ERR_OK : error;
 }

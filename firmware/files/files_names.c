@@ -10,24 +10,24 @@
 
 #define REPLACEMENT "/.new" // a new content until it is complete
 
-static lfs_ssize_t do_remove(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_remove(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_remove(lfs, call->path);
 }
 
-static lfs_ssize_t do_rename(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_rename(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_rename(lfs, call->path, call->to);
 }
 
-static lfs_ssize_t do_info(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t do_info(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_stat(lfs, call->path, call->info);
 }
 
 // What a power cut left behind.
-void names_clean_up(void) {
+void files_names_clean_up(void) {
     struct lfs_info info;
-    volume_call_t call = {.path = REPLACEMENT, .info = &info};
-    if (volume_read(do_info, &call, NULL) == ERR_OK) {
-        volume_write(do_remove, &call, NULL);
+    files_volume_call_t call = {.path = REPLACEMENT, .info = &info};
+    if (files_volume_read(do_info, &call, NULL) == ERR_OK) {
+        files_volume_write(do_remove, &call, NULL);
     }
 }
 
@@ -43,12 +43,13 @@ static err_t check_place(const files_path_t *place) {
         entry.is_folder) {
         error = ERR_IS_A_FOLDER;
     }
-    return error != ERR_OK ? err_raise(error, "%s", place->text) : names_check_unused(place->text);
+    return error != ERR_OK ? err_raise(error, "%s", place->text)
+                           : files_names_check_unused(place->text);
 }
 
 err_t files_begin_replacement(const char *path, int *number) {
     files_path_t place;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     if (error == ERR_OK) {
         error = check_place(&place);
     }
@@ -57,15 +58,15 @@ err_t files_begin_replacement(const char *path, int *number) {
 
 static err_t rename_replacement(const char *path) {
     files_path_t place;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     if (error == ERR_OK) {
-        error = names_check_unused(place.text);
+        error = files_names_check_unused(place.text);
     }
     if (error != ERR_OK) {
         return error;
     }
-    volume_call_t call = {.path = REPLACEMENT, .to = place.text};
-    error = volume_write(do_rename, &call, NULL);
+    files_volume_call_t call = {.path = REPLACEMENT, .to = place.text};
+    error = files_volume_write(do_rename, &call, NULL);
     return error != ERR_OK ? err_raise(error, "%s", place.text) : ERR_OK;
 }
 
@@ -97,7 +98,7 @@ err_t files_replace(const char *path, const void *bytes, size_t size) {
 err_t files_remove(const char *path) {
     files_path_t place;
     files_entry_t entry;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     if (error == ERR_OK) {
         error = files_info(path, &entry);
     }
@@ -105,24 +106,24 @@ err_t files_remove(const char *path) {
         error = err_raise(ERR_IS_A_FOLDER, "%s", place.text);
     }
     if (error == ERR_OK) {
-        error = names_check_unused(place.text);
+        error = files_names_check_unused(place.text);
     }
-    volume_call_t call = {.path = place.text};
-    return error != ERR_OK ? error : volume_write(do_remove, &call, NULL);
+    files_volume_call_t call = {.path = place.text};
+    return error != ERR_OK ? error : files_volume_write(do_remove, &call, NULL);
 }
 
 // littlefs would make a folder that is moved into itself, with all in it, unreachable.
 static err_t check_movable(const char *folder, const char *to) {
-    bool used = path_is_inside(to, folder) || path_is_inside(files_folder(), folder);
+    bool used = files_path_is_inside(to, folder) || files_path_is_inside(files_folder(), folder);
     return used ? err_raise(ERR_FOLDER_IN_USE, "%s", folder) : ERR_OK;
 }
 
 err_t files_rename(const char *from, const char *to) {
     files_path_t old, new;
     files_entry_t entry;
-    err_t error = path_resolve(from, &old);
+    err_t error = files_path_resolve(from, &old);
     if (error == ERR_OK) {
-        error = path_resolve(to, &new);
+        error = files_path_resolve(to, &new);
     }
     if (error == ERR_OK) {
         error = files_info(from, &entry);
@@ -130,22 +131,22 @@ err_t files_rename(const char *from, const char *to) {
     if (error == ERR_OK && entry.is_folder) {
         error = check_movable(old.text, new.text);
     } else if (error == ERR_OK) {
-        error = names_check_unused(old.text);
+        error = files_names_check_unused(old.text);
     }
     if (error == ERR_OK && files_info(to, &entry) == ERR_OK) {
         error = err_raise(ERR_FILE_EXISTS, "%s", new.text);
     }
-    volume_call_t call = {.path = old.text, .to = new.text};
-    return error != ERR_OK ? error : volume_write(do_rename, &call, NULL);
+    files_volume_call_t call = {.path = old.text, .to = new.text};
+    return error != ERR_OK ? error : files_volume_write(do_rename, &call, NULL);
 }
 
 err_t files_info(const char *path, files_entry_t *entry) {
     files_path_t place;
-    err_t error = path_resolve(path, &place);
+    err_t error = files_path_resolve(path, &place);
     struct lfs_info info = {.type = LFS_TYPE_DIR, .name = "/"};
     if (error == ERR_OK && place.text[1] != '\0') {
-        volume_call_t call = {.path = place.text, .info = &info};
-        error = volume_read(do_info, &call, NULL);
+        files_volume_call_t call = {.path = place.text, .info = &info};
+        error = files_volume_read(do_info, &call, NULL);
     }
     if (error == ERR_OK) {
         strcpy(entry->name, info.name);

@@ -5,9 +5,9 @@
 #include "base/base.h"
 
 // Error: the file is open. The path is absolute.
-err_t names_check_unused(const char *path);
+err_t files_names_check_unused(const char *path);
 
 // Removes what a power cut left of a replacement.
-void names_clean_up(void);
+void files_names_clean_up(void);
 
 #endif

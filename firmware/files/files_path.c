@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "files_volume.h"
-
 static files_path_t folder = {"/"};
 
 const char *files_folder(void) {
@@ -53,7 +51,7 @@ static bool append(files_path_t *out, const char *name, size_t length) {
     return true;
 }
 
-err_t path_resolve(const char *path, files_path_t *out) {
+err_t files_path_resolve(const char *path, files_path_t *out) {
     const char *rest = path;
     if ((rest[0] | 0x20) == 'a' && rest[1] == ':') {
         rest += 2;
@@ -74,7 +72,7 @@ err_t path_resolve(const char *path, files_path_t *out) {
     return good ? ERR_OK : err_raise(ERR_FILE_BAD_NAME, "%s", path);
 }
 
-bool path_is_inside(const char *path, const char *inside) {
+bool files_path_is_inside(const char *path, const char *inside) {
     size_t length = strlen(inside);
     bool root = length == 1;
     return strncmp(path, inside, length) == 0 &&
@@ -84,7 +82,7 @@ bool path_is_inside(const char *path, const char *inside) {
 err_t files_change_folder(const char *path) {
     files_path_t to;
     files_entry_t entry;
-    err_t error = path_resolve(path, &to);
+    err_t error = files_path_resolve(path, &to);
     if (error == ERR_OK) {
         error = files_info(path, &entry);
     }

@@ -9,9 +9,9 @@ typedef struct {
 } files_path_t;
 
 // Error: no name that can be.
-err_t path_resolve(const char *path, files_path_t *out);
+err_t files_path_resolve(const char *path, files_path_t *out);
 
 // Both absolute: `path` is this folder or somewhere in it.
-bool path_is_inside(const char *path, const char *folder);
+bool files_path_is_inside(const char *path, const char *folder);
 
 #endif

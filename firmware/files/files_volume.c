@@ -13,7 +13,7 @@
 // damaged one the way can be a circle.
 #define READS_MAX 400000u
 
-static_assert(VOLUME_BLOCKS == 8 * LOOKAHEAD_BYTES, "one look finds all free blocks");
+static_assert(FILES_VOLUME_BLOCKS == 8 * LOOKAHEAD_BYTES, "one look finds all free blocks");
 
 typedef enum { VOLUME_UNKNOWN, VOLUME_NONE, VOLUME_MOUNTED } volume_state_t;
 
@@ -31,7 +31,7 @@ static struct {
 // ---- The flash -----------------------------------------------------------------------------------
 
 static uint32_t place_of(lfs_block_t block, lfs_off_t offset) {
-    return VOLUME_START + block * HAL_STORAGE_SECTOR + offset;
+    return FILES_VOLUME_START + block * HAL_STORAGE_SECTOR + offset;
 }
 
 static int read_flash(const struct lfs_config *config, lfs_block_t block, lfs_off_t offset,
@@ -85,7 +85,7 @@ static const struct lfs_config config = {
     .read_size = 16,
     .prog_size = FILES_BUFFER,
     .block_size = HAL_STORAGE_SECTOR,
-    .block_count = VOLUME_BLOCKS,
+    .block_count = FILES_VOLUME_BLOCKS,
     .block_cycles = WEAR_CYCLES,
     .cache_size = FILES_BUFFER,
     .lookahead_size = LOOKAHEAD_BYTES,
@@ -96,7 +96,7 @@ static const struct lfs_config config = {
 
 // ---- Calls ---------------------------------------------------------------------------------------
 
-static err_t error_of(lfs_ssize_t error, const volume_call_t *call) {
+static err_t error_of(lfs_ssize_t error, const files_volume_call_t *call) {
     static const struct {
         int lfs;
         err_t code;
@@ -125,7 +125,7 @@ static void leave_volume(void) {
     volume.generation++;
 }
 
-static lfs_ssize_t guarded(volume_work_t work, const volume_call_t *call) {
+static lfs_ssize_t guarded(files_volume_work_t work, const files_volume_call_t *call) {
     jmp_buf here;
     volume.reads = 0;
     volume.escape = &here;
@@ -136,26 +136,26 @@ static lfs_ssize_t guarded(volume_work_t work, const volume_call_t *call) {
     return work(&volume.lfs, call);
 }
 
-static lfs_ssize_t mount(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t mount(lfs_t *lfs, const files_volume_call_t *call) {
     (void)call;
     return lfs_mount(lfs, &config);
 }
 
 // Completes what a power cut has left half done. littlefs would do so at the next write; but until then,
 // with a move to another folder under way, it does not find the file behind the one that was moved.
-static lfs_ssize_t make_consistent(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t make_consistent(lfs_t *lfs, const files_volume_call_t *call) {
     (void)call;
     return lfs_fs_mkconsistent(lfs);
 }
 
-static lfs_ssize_t format(lfs_t *lfs, const volume_call_t *call) {
+static lfs_ssize_t format(lfs_t *lfs, const files_volume_call_t *call) {
     (void)call;
     return lfs_format(lfs, &config);
 }
 
 // Both blocks that a file system starts with are erased: there never was one.
 static bool is_blank(void) {
-    const uint8_t *bytes = hal_storage_map(VOLUME_START);
+    const uint8_t *bytes = hal_storage_map(FILES_VOLUME_START);
     for (size_t i = 0; i < 2 * HAL_STORAGE_SECTOR; i++) {
         if (bytes[i] != 0xFF) {
             return false;
@@ -164,7 +164,7 @@ static bool is_blank(void) {
     return true;
 }
 
-bool volume_start(void) {
+bool files_volume_start(void) {
     bool mounted = guarded(mount, NULL) == 0;
     if (mounted && hal_storage_is_writable() && guarded(make_consistent, NULL) != 0) {
         mounted = guarded(mount, NULL) == 0; // what can be read shall be read
@@ -173,7 +173,7 @@ bool volume_start(void) {
     return mounted || is_blank();
 }
 
-err_t volume_format(void) {
+err_t files_volume_format(void) {
     if (!hal_storage_is_writable()) {
         return err_raise(ERR_STORAGE_BUSY, NULL);
     }
@@ -189,9 +189,10 @@ err_t volume_format(void) {
     return ERR_OK;
 }
 
-err_t volume_read(volume_work_t work, const volume_call_t *call, lfs_ssize_t *result) {
+err_t files_volume_read(files_volume_work_t work, const files_volume_call_t *call,
+                        lfs_ssize_t *result) {
     if (volume.state == VOLUME_UNKNOWN) {
-        volume_start();
+        files_volume_start();
     }
     lfs_ssize_t got = volume.state == VOLUME_MOUNTED ? guarded(work, call) : LFS_ERR_NOENT;
     if (result != NULL) {
@@ -200,22 +201,23 @@ err_t volume_read(volume_work_t work, const volume_call_t *call, lfs_ssize_t *re
     return got >= 0 ? ERR_OK : error_of(got, call);
 }
 
-err_t volume_write(volume_work_t work, const volume_call_t *call, lfs_ssize_t *result) {
+err_t files_volume_write(files_volume_work_t work, const files_volume_call_t *call,
+                         lfs_ssize_t *result) {
     if (!hal_storage_is_writable()) {
         return err_raise(ERR_STORAGE_BUSY, NULL);
     }
     if (volume.state == VOLUME_UNKNOWN) {
-        volume_start();
+        files_volume_start();
     }
     if (volume.state == VOLUME_NONE) {
-        err_t error = volume_format();
+        err_t error = files_volume_format();
         if (error != ERR_OK) {
             return error;
         }
     }
-    return volume_read(work, call, result);
+    return files_volume_read(work, call, result);
 }
 
-unsigned volume_generation(void) {
+unsigned files_volume_generation(void) {
     return volume.generation;
 }

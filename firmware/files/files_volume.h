@@ -7,8 +7,8 @@
 #include "hal/hal.h"
 #include "lfs.h"
 
-#define VOLUME_START (256u * 1024u) // behind the two places of the program
-#define VOLUME_BLOCKS ((HAL_STORAGE_SIZE - VOLUME_START) / HAL_STORAGE_SECTOR)
+#define FILES_VOLUME_START (256u * 1024u) // behind the two places of the program
+#define FILES_VOLUME_BLOCKS ((HAL_STORAGE_SIZE - FILES_VOLUME_START) / HAL_STORAGE_SECTOR)
 
 // The arguments of a call of littlefs; those it has no use for are not set.
 typedef struct {
@@ -21,22 +21,24 @@ typedef struct {
     void *bytes;
     const void *source;
     lfs_size_t size; // or a position
-} volume_call_t;
+} files_volume_call_t;
 
-typedef lfs_ssize_t (*volume_work_t)(lfs_t *lfs, const volume_call_t *call);
+typedef lfs_ssize_t (*files_volume_work_t)(lfs_t *lfs, const files_volume_call_t *call);
 
 // Makes the call. At least 0, or the error it raised. Not found, if there is no file system yet.
 // `writes`: makes one then; ERR_STORAGE_BUSY if motion is under way.
-err_t volume_read(volume_work_t work, const volume_call_t *call, lfs_ssize_t *result);
-err_t volume_write(volume_work_t work, const volume_call_t *call, lfs_ssize_t *result);
+err_t files_volume_read(files_volume_work_t work, const files_volume_call_t *call,
+                        lfs_ssize_t *result);
+err_t files_volume_write(files_volume_work_t work, const files_volume_call_t *call,
+                         lfs_ssize_t *result);
 
 // Looks for a file system. False: what is there is none, and not nothing either.
-bool volume_start(void);
+bool files_volume_start(void);
 
 // Makes a new one.
-err_t volume_format(void);
+err_t files_volume_format(void);
 
 // Changes whenever all open files are lost: the volume was damaged and had to be left.
-unsigned volume_generation(void);
+unsigned files_volume_generation(void);
 
 #endif

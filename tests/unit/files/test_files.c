@@ -158,7 +158,8 @@ static void test_a_file_being_written_is_open_once(void) {
     TEST_ASSERT_EQUAL(ERR_FILE_IN_USE, files_rename("x", "y"));
     TEST_ASSERT_EQUAL(ERR_FILE_IN_USE, files_replace("x", "new", 3));
     TEST_ASSERT_EQUAL(ERR_OK, files_open("x", FILES_READ, &other));
-    files_close_all();
+    TEST_ASSERT_EQUAL(ERR_OK, files_close(reader));
+    TEST_ASSERT_EQUAL(ERR_OK, files_close(other));
     TEST_ASSERT_EQUAL(ERR_OK, files_open("x", FILES_WRITE, &writer));
     TEST_ASSERT_EQUAL(ERR_FILE_IN_USE, files_open("x", FILES_READ, &reader));
     TEST_ASSERT_EQUAL(ERR_OK, files_close(writer));
@@ -167,7 +168,9 @@ static void test_a_file_being_written_is_open_once(void) {
         TEST_ASSERT_EQUAL(ERR_OK, files_open("x", FILES_READ, &handles[i]));
     }
     expect(ERR_FILES_TOO_MANY, files_open("x", FILES_READ, &other), "Too many files are open");
-    files_close_all();
+    for (int i = 0; i < FILES_OPEN_MAX; i++) {
+        TEST_ASSERT_EQUAL(ERR_OK, files_close(handles[i]));
+    }
 }
 
 static void test_a_full_flash_keeps_what_is_there(void) {
