@@ -14,6 +14,8 @@
 #include "symbols.h"
 #include "words.h"
 
+#define VALUES_MAX 255u // of a command, as its code counts them
+
 static const basic_config_t *config;
 
 void args_start(const basic_config_t *new_config) {
@@ -93,6 +95,14 @@ static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) 
         stands_alone(in_parentheses)) {
         emit_string(token->text, token->length);
         lexer_next();
+        return;
+    }
+    if (spec->kind == BASIC_ARG_DATA) {
+        expressions_compile_argument();
+        return;
+    }
+    if (spec->kind == BASIC_ARG_STORE) {
+        expressions_compile_reference_or_array();
         return;
     }
     bool is_name = token->kind == LEXER_NAME;
@@ -176,6 +186,10 @@ static void compile_raw(void) {
 
 // ---- The list ------------------------------------------------------------------------------------
 
+bool args_takes_data(const basic_arg_spec_t *specs, size_t count) {
+    return count > 0 && specs[count - 1].kind == BASIC_ARG_DATA;
+}
+
 static const basic_arg_spec_t *spec_of(const basic_arg_spec_t *specs, size_t count, size_t index) {
     if (index < count) {
         return &specs[index];
@@ -185,7 +199,7 @@ static const basic_arg_spec_t *spec_of(const basic_arg_spec_t *specs, size_t cou
             return &specs[i + (index - i) % (count - i)];
         }
     }
-    return NULL;
+    return args_takes_data(specs, count) ? &specs[count - 1] : NULL;
 }
 
 static bool list_ends(bool in_parentheses) {
@@ -196,10 +210,11 @@ static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count,
                              bool in_parentheses) {
     unsigned count = 0;
     // RAW also takes an apostrophe or nothing at all, where other lists are at their end.
+    unsigned most = args_takes_data(specs, spec_count) ? VALUES_MAX : BASIC_ARGS_MAX;
     bool ends = list_ends(in_parentheses) && !(spec_count == 1 && specs[0].kind == BASIC_ARG_RAW);
     for (bool more = !ends; more; more = lexer_take(',')) {
         const basic_arg_spec_t *spec = spec_of(specs, spec_count, count);
-        if (spec == NULL || count == BASIC_ARGS_MAX) {
+        if (spec == NULL || count == most) {
             errors_fail(ERR_ARGUMENTS_TOO_MANY);
         }
         if (spec->kind == BASIC_ARG_RAW) {

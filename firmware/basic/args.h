@@ -49,6 +49,9 @@ basic_routine_t args_routine(const char *name, const value_t *value);
 void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_t *values,
                   unsigned count, basic_arg_t *out, size_t *out_count);
 
+// The last one of the list is a BASIC_ARG_DATA.
+bool args_takes_data(const basic_arg_spec_t *specs, size_t count);
+
 // What a number or a choice may be, in words: "above 0 to 100000", "X, Y, Z, A".
 void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size);
 

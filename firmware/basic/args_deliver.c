@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "args.h"
+#include "args_data.h"
 #include "choices.h"
 #include "errors.h"
 #include "events.h"
@@ -211,6 +212,9 @@ static void deliver(const basic_arg_spec_t *spec, const value_t *value, basic_ar
     case BASIC_ARG_PIN:
         deliver_pin(spec, value, arg);
         break;
+    case BASIC_ARG_STORE:
+        args_data_deliver_store(spec, value, arg);
+        break;
     case BASIC_ARG_ROUTINE:
         arg->integer = args_routine(spec->name, value);
         break;
@@ -249,13 +253,16 @@ void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_
     while (total < count && group != 0) { // whole groups only: the rest of the last one is blank
         total += group;
     }
-    if (count > total || total > BASIC_ARGS_MAX) {
+    bool takes_data = args_takes_data(specs, spec_count);
+    if ((count > total && !takes_data) || total > BASIC_ARGS_MAX) {
         errors_fail(ERR_ARGUMENTS_TOO_MANY);
     }
     for (size_t i = 0; i < total; i++) {
         const basic_arg_spec_t *spec = i < start ? &specs[i] : &specs[start + (i - start) % group];
         out[i] = (basic_arg_t){.text = {"", 0}};
-        if (i < count && values[i].type != VALUE_NONE) {
+        if (i < count && spec->kind == BASIC_ARG_DATA) {
+            args_data_deliver(spec, &values[i], count - (unsigned)i, &out[i]);
+        } else if (i < count && values[i].type != VALUE_NONE) {
             deliver(spec, &values[i], &out[i]);
         } else {
             deliver_blank(spec, &out[i]);

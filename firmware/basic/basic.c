@@ -49,6 +49,11 @@ bool basic_break_pending(void) {
     return console_break_pending();
 }
 
+bool basic_wait(uint64_t until_us) {
+    console_wait(until_us);
+    return !console_break_pending();
+}
+
 static void nothing(void) {}
 
 void basic_start(const basic_config_t *new_config) {

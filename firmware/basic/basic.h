@@ -46,6 +46,12 @@ typedef enum {
     // The name of a SUB without parameters, bare or as a string expression; a literal 0 or blank
     // means none -> integer (a basic_routine_t)
     BASIC_ARG_ROUTINE,
+    // The last one of a list, taking all that follows: numbers, or one string, or all of an array,
+    // name() -> data, integer (how many numbers it is)
+    BASIC_ARG_DATA,
+    // What is to be written into: a number, a string, or all of an array of numbers, name()
+    // -> data, integer (how many numbers fit)
+    BASIC_ARG_STORE,
     // The rest of the statement as typed, comment included; ends at a colon outside quotes,
     // parentheses and comments -> text
     BASIC_ARG_RAW,
@@ -77,13 +83,22 @@ typedef struct {
     const char *help; // a short sentence without a full stop
 } basic_arg_spec_t;
 
+// What a BASIC_ARG_DATA or a BASIC_ARG_STORE stands for; see basic_data_number().
+typedef struct {
+    const void *values; // the interpreter's
+    size_t count;       // as they were written, commas between
+} basic_data_t;
+
 // One argument as delivered to a handler; the array always has a row for each row of the spec (and
 // for each repetition), with given == false where it was left out.
 typedef struct {
     bool given;
     double number;
     int64_t integer;
-    basic_text_t text;
+    union {
+        basic_text_t text;
+        basic_data_t data;
+    };
 } basic_arg_t;
 
 #define BASIC_ARGS_MAX 24
@@ -201,6 +216,13 @@ void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)))
 // done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+// The number at `index`, below arg->integer, of a BASIC_ARG_DATA; of a string it is the byte there.
+// Rounded, and the nearest if it is beyond 64 bits.
+int64_t basic_data_number(const basic_arg_t *arg, size_t index);
+
+// Writes the number at `index`, below arg->integer, of a BASIC_ARG_STORE; a string ends behind it.
+void basic_store_number(const basic_arg_t *arg, size_t index, int64_t number);
+
 // A setting of the product that outlives power-off: what was set, or the fallback. The name is that of the
 // command that sets it, without OPTION. Quick enough to be asked each time.
 int64_t basic_option(const char *name, int64_t fallback);
@@ -215,5 +237,9 @@ enum { BASIC_PIN_NUMBERS_GPIO, BASIC_PIN_NUMBERS_BOARD, BASIC_PIN_NUMBERS_BY_ROW
 
 // True if the user pressed Ctrl-C and the statement should end; a handler that waits must ask.
 bool basic_break_pending(void);
+
+// Sleeps until something happens or `until_us`, while the background and the console go on. False if
+// the user pressed Ctrl-C and the statement should end.
+bool basic_wait(uint64_t until_us);
 
 #endif

@@ -115,6 +115,10 @@ static const char *kind_text(basic_arg_kind_t kind) {
         return "a pin: GP0 to GP28, or a number";
     case BASIC_ARG_ROUTINE:
         return "the name of a SUB without parameters, or 0";
+    case BASIC_ARG_DATA:
+        return "numbers, one string or one array()";
+    case BASIC_ARG_STORE:
+        return "a variable or an array()";
     case BASIC_ARG_RAW:
         return "the rest of the line";
     default:
@@ -165,11 +169,12 @@ static void print_command(const basic_command_t *row) {
 }
 
 static void print_function(const basic_function_t *row) {
+    bool parentheses = row->keyword != NULL || row->arg_count > 0;
     console_print(row->name);
-    console_print("(");
+    console_print(parentheses ? "(" : "");
     console_print(row->keyword != NULL ? row->keyword : "");
     print_usage(row->args, row->arg_count);
-    print_line(")");
+    print_line(parentheses ? ")" : "");
     print_help_sentence(row->help);
     print_arguments(row->args, row->arg_count);
 }

@@ -334,6 +334,14 @@ static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
     case BASIC_ARG_ROUTINE:
         fuzz_text_add(text, fuzz_random_percent(60) ? "handler" : "0");
         break;
+    case BASIC_ARG_DATA:
+        fuzz_text_add(text, "%s",
+                      FUZZ_RANDOM_PICK(((const char *const[]){"1,2,3", "255", "b$", "d()"})));
+        break;
+    case BASIC_ARG_STORE:
+        fuzz_text_add(text, "%s",
+                      FUZZ_RANDOM_PICK(((const char *const[]){"b$", "b", "d()", "d(1)"})));
+        break;
     case BASIC_ARG_RAW:
         add_gcode(text);
         break;

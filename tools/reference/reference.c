@@ -8,10 +8,11 @@
 #include "basic_cmds/basic_cmds.h"
 
 static const char *const kinds[] = {
-    [BASIC_ARG_NUMBER] = "number", [BASIC_ARG_INTEGER] = "whole number",
-    [BASIC_ARG_TEXT] = "string",   [BASIC_ARG_CHOICE] = "word",
-    [BASIC_ARG_WORD] = "word",     [BASIC_ARG_PIN] = "pin",
-    [BASIC_ARG_ROUTINE] = "SUB",   [BASIC_ARG_RAW] = "rest of line",
+    [BASIC_ARG_NUMBER] = "number",    [BASIC_ARG_INTEGER] = "whole number",
+    [BASIC_ARG_TEXT] = "string",      [BASIC_ARG_CHOICE] = "word",
+    [BASIC_ARG_WORD] = "word",        [BASIC_ARG_PIN] = "pin",
+    [BASIC_ARG_ROUTINE] = "SUB",      [BASIC_ARG_DATA] = "numbers, a string or an array()",
+    [BASIC_ARG_RAW] = "rest of line", [BASIC_ARG_STORE] = "variable or array()",
 };
 
 static bool has(const basic_arg_spec_t *arg, unsigned flag) {
@@ -101,6 +102,10 @@ static void print_command(const basic_command_t *command) {
 static void print_function(const basic_function_t *function) {
     const char *keyword = function->keyword != NULL ? function->keyword : "";
     const char *gap = function->keyword != NULL ? " " : "";
+    if (function->keyword == NULL && function->arg_count == 0) {
+        printf("## %s\n\n%s.\n\n", function->name, function->help);
+        return;
+    }
     printf("## %s(%s)\n\n```\n%s(%s%s", function->name, keyword, function->name, keyword, gap);
     print_syntax(function->args, function->arg_count);
     printf(")\n```\n\n%s.\n\n", function->help);
