@@ -5,6 +5,7 @@
 #include "basic_cmds/com.h"
 #include "basic_cmds/configure.h"
 #include "basic_cmds/control.h"
+#include "basic_cmds/i2c.h"
 #include "basic_cmds/pin_values.h"
 #include "basic_cmds/report.h"
 #include "basic_cmds/setpin.h"
@@ -198,6 +199,21 @@ const basic_command_t basic_cmds_commands[] = {
     {"SETPIN", ARGS(setpin_pwm_args), setpin_pwm, "Gives a pin to its PWM slice"},
     {"SETPIN", ARGS(com_setpin_args), com_setpin,
      "Gives a serial port its pins, for OPEN \"COM1:9600\" AS #1"},
+    {"SETPIN", ARGS(i2c_setpin_args), i2c_setpin, "Gives an I2C bus its pins"},
+    {"I2C OPEN", ARGS(i2c_open_args), i2c_open, "Makes the program the master of a bus"},
+    {"I2C WRITE", ARGS(i2c_write_args), i2c_write, "Sends bytes; MM.I2C tells what came of it"},
+    {"I2C READ", ARGS(i2c_read_args), i2c_read,
+     "Receives bytes; if that fails, which MM.I2C tells, the variable stays as it is"},
+    {"I2C CHECK", ARGS(i2c_check_args), i2c_check,
+     "Reads a byte of a device: MM.I2C is 0 if there is one"},
+    {"I2C CLOSE", .run = i2c_close, .help = "Ends it; the pins stay the bus's"},
+    {"I2C2 OPEN", ARGS(i2c_open_args), i2c_open_2, "Makes the program the master of a bus"},
+    {"I2C2 WRITE", ARGS(i2c_write_args), i2c_write_2, "Sends bytes; MM.I2C tells what came of it"},
+    {"I2C2 READ", ARGS(i2c_read_args), i2c_read_2,
+     "Receives bytes; if that fails, which MM.I2C tells, the variable stays as it is"},
+    {"I2C2 CHECK", ARGS(i2c_check_args), i2c_check_2,
+     "Reads a byte of a device: MM.I2C is 0 if there is one"},
+    {"I2C2 CLOSE", .run = i2c_close_2, .help = "Ends it; the pins stay the bus's"},
     {"OPTION PIN NUMBERS", ARGS(setpin_numbers_args), setpin_numbers,
      "Says what a bare number means where a pin is wanted; kept over power-off"},
     {"OPTION VCC", ARGS(setpin_vcc_args), setpin_vcc, "Sets the reference of analog inputs"},
@@ -219,6 +235,8 @@ const basic_function_t basic_cmds_functions[] = {
      "Value of a pin as its SETPIN says; the level, if another command has the pin"},
     {"PIN", "TEMP", .evaluate = pin_values_temperature,
      .help = "Temperature of the chip in degrees Celsius"},
+    {"MM.I2C", NULL, .evaluate = i2c_result,
+     .help = "What came of the last I2C transfer: 0 all well, 1 no acknowledge, 2 timeout"},
     {"PORT", NULL, ARGS(pin_values_read_port_args), pin_values_read_port,
      "Levels of several pins at one time as the bits of a number"},
 };
@@ -236,6 +254,7 @@ const size_t basic_cmds_device_count = COUNT_OF_ARRAY(basic_cmds_devices);
 
 void basic_cmds_clear(void) {
     com_clear();
+    i2c_clear();
     setpin_clear();
 }
 

@@ -5,6 +5,7 @@
 
 #include "hal/hal.h"
 #include "io.h"
+#include "io_bus.h"
 #include "io_count.h"
 #include "io_pulse.h"
 #include "io_serial.h"
@@ -20,6 +21,7 @@ static const char *const owners[IO_PINS_USES] = {
     [IO_PINS_FREQUENCY] = "SETPIN FIN", [IO_PINS_PERIOD] = "SETPIN PIN",
     [IO_PINS_COUNTER] = "SETPIN CIN",   [IO_PINS_INTERRUPT] = "SETPIN INT",
     [IO_PINS_PWM] = "SETPIN PWM",       [IO_PINS_SERIAL] = "SETPIN COM",
+    [IO_PINS_I2C] = "SETPIN I2C",
 };
 
 io_pins_use_t io_pins_use(unsigned gpio) {
@@ -55,6 +57,9 @@ static void end_use(unsigned gpio) {
         break;
     case IO_PINS_SERIAL:
         io_serial_forget(gpio);
+        break;
+    case IO_PINS_I2C:
+        io_bus_forget(gpio);
         break;
     default:
         break;

@@ -50,7 +50,9 @@ ALLOWED: dict[str, list[str]] = {
 ALSO_FACES = {
     "firmware/hal/pins.h",
     "firmware/hal/hal_io.h",
+    "firmware/hal/hal_i2c.h",
     "firmware/hal/hal_serial.h",
+    "firmware/io/io_bus.h",
     "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",
 }

@@ -10,6 +10,7 @@ import { Flash } from './flash.mjs';
 import { Mpu } from './mpu.mjs';
 import { Nvic } from './nvic.mjs';
 import { Pads } from './pads.mjs';
+import { I2c } from './i2c.mjs';
 import { installPio } from './pio.mjs';
 import { installReset, RESET } from './reset.mjs';
 import { installSio } from './sio.mjs';
@@ -78,6 +79,7 @@ export class Chip {
         installTimer({ mcu, clock });
         this.survivors = installReset({ mcu, S, survivors });
         this.uarts = [0, 1].map((index) => new Uart({ mcu, clock, index, onByte: (byte) => listener.onUart(index, byte) }));
+        this.i2cs = [0, 1].map((index) => new I2c({ mcu, clock, index }));
         this.usb = new UsbHost({ mcu, clock, onData: listener.onSerial, onConnected: listener.onConnected });
         const rebasePio = installPio({ mcu, clock, S });
         mcu.addClockListener((frequency) => this.clockChanged(frequency, rebasePio));
