@@ -3,33 +3,17 @@
 # meant for it.
 set(LITTLEFS_TAG v2.11.2)
 set(LITTLEFS_API 0x0002000b)
-set(littlefs_here ${CMAKE_SOURCE_DIR}/.deps/littlefs)
 
-if(NOT LITTLEFS_DIR AND DEFINED ENV{LITTLEFS_DIR})
-    set(LITTLEFS_DIR $ENV{LITTLEFS_DIR})
-endif()
-if(NOT LITTLEFS_DIR)
+if(NOT LITTLEFS_DIR AND NOT DEFINED ENV{LITTLEFS_DIR})
     execute_process( # quick if it is there
         COMMAND ${CMAKE_COMMAND} -E env STEPMITE_NO_APT=1 ${CMAKE_SOURCE_DIR}/tools/setup littlefs
         ERROR_QUIET
     )
-    if(EXISTS ${littlefs_here}/lfs.c)
-        set(LITTLEFS_DIR ${littlefs_here})
-    endif()
 endif()
-if(NOT LITTLEFS_DIR)
-    include(FetchContent)
-    FetchContent_Declare(littlefs
-        GIT_REPOSITORY https://github.com/littlefs-project/littlefs.git GIT_TAG ${LITTLEFS_TAG}
-    )
-    FetchContent_GetProperties(littlefs)
-    if(NOT littlefs_POPULATED)
-        message(STATUS "Fetching littlefs ${LITTLEFS_TAG}")
-        FetchContent_Populate(littlefs)
-    endif()
-    set(LITTLEFS_DIR ${littlefs_SOURCE_DIR})
-endif()
-set(LITTLEFS_DIR ${LITTLEFS_DIR} CACHE PATH "littlefs, with lfs.c")
+include(third_party)
+third_party(littlefs LITTLEFS_DIR lfs.c
+    https://github.com/littlefs-project/littlefs.git ${LITTLEFS_TAG} ${CMAKE_SOURCE_DIR}/.deps/littlefs
+)
 
 file(STRINGS ${LITTLEFS_DIR}/lfs.h littlefs_api REGEX "define LFS_VERSION 0x")
 if(NOT littlefs_api MATCHES ${LITTLEFS_API})

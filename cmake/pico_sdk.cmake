@@ -3,27 +3,11 @@
 # stepmite_sdk_headers, as system headers: our warnings are not meant for them.
 set(PICO_SDK_VERSION_NEEDED 2.1.1)
 
-if(NOT PICO_SDK_PATH AND DEFINED ENV{PICO_SDK_PATH})
-    set(PICO_SDK_PATH $ENV{PICO_SDK_PATH})
-endif()
-if(NOT PICO_SDK_PATH AND EXISTS /usr/src/pico-sdk/pico_sdk_init.cmake)
-    set(PICO_SDK_PATH /usr/src/pico-sdk)
-endif()
-if(NOT PICO_SDK_PATH)
-    include(FetchContent)
-    FetchContent_Declare(pico_sdk
-        GIT_REPOSITORY https://github.com/raspberrypi/pico-sdk.git
-        GIT_TAG ${PICO_SDK_VERSION_NEEDED}
-        GIT_SUBMODULES lib/tinyusb
-    )
-    FetchContent_GetProperties(pico_sdk)
-    if(NOT pico_sdk_POPULATED)
-        message(STATUS "Fetching pico-sdk ${PICO_SDK_VERSION_NEEDED}")
-        FetchContent_Populate(pico_sdk)
-    endif()
-    set(PICO_SDK_PATH ${pico_sdk_SOURCE_DIR})
-endif()
-set(PICO_SDK_PATH ${PICO_SDK_PATH} CACHE PATH "pico-sdk ${PICO_SDK_VERSION_NEEDED}")
+include(third_party)
+third_party(pico_sdk PICO_SDK_PATH pico_sdk_init.cmake
+    https://github.com/raspberrypi/pico-sdk.git ${PICO_SDK_VERSION_NEEDED} /usr/src/pico-sdk
+    GIT_SUBMODULES lib/tinyusb
+)
 
 include(${PICO_SDK_PATH}/pico_sdk_init.cmake)
 if(NOT PICO_SDK_VERSION_STRING VERSION_EQUAL PICO_SDK_VERSION_NEEDED)

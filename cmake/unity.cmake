@@ -1,25 +1,9 @@
 # Unit tests with Unity. Found in UNITY_DIR (environment or cache), as Debian's package cmock brings it,
 # or fetched at a pinned tag.
-set(UNITY_TAG v2.5.2)
-
-if(NOT UNITY_DIR AND DEFINED ENV{UNITY_DIR})
-    set(UNITY_DIR $ENV{UNITY_DIR})
-endif()
-if(NOT UNITY_DIR AND EXISTS /usr/share/cmock/vendor/unity/src/unity.c)
-    set(UNITY_DIR /usr/share/cmock/vendor/unity)
-endif()
-if(NOT UNITY_DIR)
-    include(FetchContent)
-    FetchContent_Declare(unity
-        GIT_REPOSITORY https://github.com/ThrowTheSwitch/Unity.git GIT_TAG ${UNITY_TAG}
-    )
-    FetchContent_GetProperties(unity)
-    if(NOT unity_POPULATED)
-        FetchContent_Populate(unity)
-    endif()
-    set(UNITY_DIR ${unity_SOURCE_DIR})
-endif()
-set(UNITY_DIR ${UNITY_DIR} CACHE PATH "Unity, with src/unity.c")
+include(third_party)
+third_party(unity UNITY_DIR src/unity.c
+    https://github.com/ThrowTheSwitch/Unity.git v2.5.2 /usr/share/cmock/vendor/unity
+)
 
 add_library(unity STATIC ${UNITY_DIR}/src/unity.c)
 target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR}/src)
