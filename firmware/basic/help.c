@@ -95,14 +95,20 @@ static void print_place(const basic_arg_spec_t *spec) {
     }
 }
 
-static void print_usage(const basic_arg_spec_t *args, size_t count) {
+// `before` stands before the first place. A repeated argument and those behind it share a bracket.
+static void print_usage(const basic_arg_spec_t *args, size_t count, const char *before) {
+    const char *end = "";
     for (size_t i = 0; i < count; i++) {
-        bool bracket = is_optional(&args[i]) || args[i].flags & BASIC_ARG_REPEAT;
-        console_print(bracket ? " [" : "");
-        console_print(i > 0 ? ", " : bracket ? "" : " ");
+        bool repeats = (args[i].flags & BASIC_ARG_REPEAT) != 0;
+        bool bracket = repeats || (*end == '\0' && is_optional(&args[i]));
+        console_print(i == 0 ? before : bracket ? " " : "");
+        console_print(bracket ? "[" : "");
+        console_print(i > 0 ? ", " : "");
         print_place(&args[i]);
-        console_print(args[i].flags & BASIC_ARG_REPEAT ? " ...]" : bracket ? "]" : "");
+        console_print(bracket && !repeats ? "]" : "");
+        end = repeats ? "] ..." : end;
     }
+    console_print(end);
 }
 
 static const char *kind_text(basic_arg_kind_t kind) {
@@ -127,8 +133,8 @@ static const char *kind_text(basic_arg_kind_t kind) {
 }
 
 static void print_argument(const basic_arg_spec_t *spec) {
-    char text[200];
-    char range[80];
+    char text[256];
+    char range[136];
     bool limited = spec->kind <= BASIC_ARG_INTEGER && (spec->min != 0.0 || spec->max != 0.0);
     if (limited || spec->choices != NULL) {
         args_describe_range(spec, range, sizeof range);
@@ -147,9 +153,21 @@ static void print_argument(const basic_arg_spec_t *spec) {
     print_line(text);
 }
 
+// An argument that is there already, such as the first one again of a group that repeats.
+static bool is_known(const basic_arg_spec_t *args, size_t i) {
+    for (size_t before = 0; before < i; before++) {
+        if (strcmp(args[before].name, args[i].name) == 0 && args[before].help == args[i].help) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void print_arguments(const basic_arg_spec_t *args, size_t count) {
     for (size_t i = 0; i < count; i++) {
-        print_argument(&args[i]);
+        if (!is_known(args, i)) {
+            print_argument(&args[i]);
+        }
     }
 }
 
@@ -162,7 +180,7 @@ static void print_help_sentence(const char *help) {
 
 static void print_command(const basic_command_t *row) {
     console_print(row->name);
-    print_usage(row->args, row->arg_count);
+    print_usage(row->args, row->arg_count, " ");
     console_new_line();
     print_help_sentence(row->help);
     print_arguments(row->args, row->arg_count);
@@ -173,7 +191,7 @@ static void print_function(const basic_function_t *row) {
     console_print(row->name);
     console_print(parentheses ? "(" : "");
     console_print(row->keyword != NULL ? row->keyword : "");
-    print_usage(row->args, row->arg_count);
+    print_usage(row->args, row->arg_count, row->keyword != NULL ? " " : "");
     print_line(parentheses ? ")" : "");
     print_help_sentence(row->help);
     print_arguments(row->args, row->arg_count);
@@ -182,7 +200,7 @@ static void print_function(const basic_function_t *row) {
 static void print_assignment(const basic_assignment_t *row) {
     console_print(row->name);
     console_print("(");
-    print_usage(row->args + 1, row->arg_count - 1);
+    print_usage(row->args + 1, row->arg_count - 1, "");
     console_print(") = ");
     print_line(row->args[0].name);
     print_help_sentence(row->help);
@@ -250,13 +268,53 @@ static bool print_language(const char *topic, size_t length) {
     return found;
 }
 
+static bool is_in_word(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '$';
+}
+
+// True if the topic stands in the text as words of their own, in capitals as keywords do.
+static bool mentions(const char *text, const char *topic, size_t length) {
+    for (const char *p = text; *p != '\0'; p++) {
+        size_t same = 0;
+        while (same < length && p[same] != '\0' && p[same] == letters_upper(topic[same])) {
+            same++;
+        }
+        if (same == length && (p == text || !is_in_word(p[-1])) && !is_in_word(p[same])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The statements that a word such as NEXT or RETURN is a part of.
+static bool print_mentions(const char *topic, size_t length) {
+    bool found = false;
+    for (size_t i = 0; length > 1 && i < statements_count; i++) {
+        const statements_row_t *row = &statements_table[i];
+        if (row->usage != NULL &&
+            (mentions(row->usage, topic, length) || mentions(row->help, topic, length))) {
+            print_line(row->usage);
+            print_help_sentence(row->help);
+            found = true;
+        }
+    }
+    return found;
+}
+
+// The first of several words, such as ON of ON KEY.
+static size_t first_word_length(const char *topic, size_t length) {
+    const char *blank = memchr(topic, ' ', length);
+    return blank != NULL ? (size_t)(blank - topic) : length;
+}
+
 void help_print(const char *topic, size_t length) {
     if (length == 0) {
         print_overview();
         return;
     }
     bool command = print_commands(topic, length);
-    if (!print_language(topic, length) && !command) {
+    if (!print_language(topic, length) && !command && !print_mentions(topic, length) &&
+        !print_language(topic, first_word_length(topic, length))) {
         errors_fail_with(ERR_ARGUMENT, "No help for %.*s", (int)length, topic);
     }
 }

@@ -12,12 +12,13 @@ FIRMWARE = Path(__file__).parents[2] / "firmware/basic"
 ROW = re.compile(r'^    \{"([^"]+)",(.*?)\},$', re.MULTILINE | re.DOTALL)
 
 
-def rows(name: str) -> dict[str, bool]:
-    """Each word of a table, and whether it is a part of another one, without a help of its own."""
-    found = {
-        word: rest.rstrip().endswith("NULL")
+def rows(name: str) -> list[str]:
+    """Each word of a table; functions without help are parts of a family such as MATH."""
+    found = [
+        word
         for word, rest in ROW.findall((FIRMWARE / name).read_text(encoding="utf-8"))
-    }
+        if name == "statements.c" or not rest.rstrip().endswith("NULL")
+    ]
     assert len(found) > 60
     return found
 
@@ -28,5 +29,6 @@ def test_help_of_each_word(table: str) -> None:
     answer = answers("".join(f'PRINT "<"\rHELP {word}\r' for word in words))
     told = "\n".join(answer).split("<\n")[1:]
     assert len(told) == len(words)
-    for (word, part), text in zip(words.items(), told, strict=True):
-        assert text.startswith(f"Error : No help for {word}") == part, (word, text)
+    for word, text in zip(words, told, strict=True):
+        assert "No help for" not in text, word
+        assert word in text, (word, text)

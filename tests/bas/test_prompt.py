@@ -154,6 +154,13 @@ def test_help():
     assert "MID$" in overview
     assert answers("HELP for\r")[0].startswith("FOR name = first TO last")
     assert answers("HELP nothing\r") == ["Error : No help for nothing"]
+    assert answers("HELP next\r") == answers("HELP FOR\r")
+    assert answers("HELP return\r") == answers("HELP GOSUB\r")
+    assert answers("HELP on key\r") == answers("HELP ON\r")
+    assert answers("HELP line input\r") == answers("HELP LINE\r")
+    assert answers("HELP x\r") == ["Error : No help for x"]
+    assert answers("HELP PORT\r")[0] == "PORT(start, bits [, start, bits] ...)"
+    assert answers("HELP PIN\r")[0] == "PIN(pin)"
 
 
 def enter(program: str) -> str:

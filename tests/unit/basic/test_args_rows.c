@@ -162,7 +162,7 @@ static void test_assignments(void) {
     reject("LEVEL(GP4) =", "Invalid syntax");
     reject("GROUP(1) = 2", "Missing bits");
     reject("DOOR(GP4) = 1", "door open");
-    TEST_ASSERT_NOT_NULL(strstr(answer("HELP LEVEL"), "LEVEL( pin) = value"));
+    TEST_ASSERT_NOT_NULL(strstr(answer("HELP LEVEL"), "LEVEL(pin) = value"));
 }
 
 static void test_bare_pin_numbers(void) {
