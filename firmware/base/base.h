@@ -1,5 +1,5 @@
-// What every part of the firmware may use: errors, checksums, the one-writer one-reader ring, decimal
-// numbers from and to text, formatted text, letters.
+// What every part of the firmware may use: errors, checksums, the one-writer one-reader ring,
+// decimal numbers from and to text, formatted text, letters.
 // The face of firmware/base. Context of each part is said in its own header.
 #ifndef BASE_H
 #define BASE_H

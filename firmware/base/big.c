@@ -90,7 +90,8 @@ bool big_at_least(const big_t *left, const big_t *right) {
     return true;
 }
 
-// numerator -= denominator * 2^(32 place) * factor, modulo 2^(32 (place + length + 1)). Returns the borrow.
+// numerator -= denominator * 2^(32 place) * factor, modulo 2^(32 (place + length + 1)). Returns the
+// borrow.
 static bool subtract_multiple(uint32_t *numerator, const big_t *denominator, uint32_t factor) {
     uint64_t carry = 0;
     for (int i = 0; i < denominator->length; i++) {
@@ -118,8 +119,8 @@ static bool add_back(uint32_t *numerator, const big_t *denominator) {
     return carry >> 32 != 0;
 }
 
-// One word of the quotient, as in long division by hand: guessed from the highest words, at most two too
-// large because the denominator's highest bit is set.
+// One word of the quotient, as in long division by hand: guessed from the highest words, at most
+// two too large because the denominator's highest bit is set.
 static uint32_t divide_step(uint32_t *numerator, const big_t *denominator) {
     int length = denominator->length;
     uint32_t highest = denominator->words[length - 1];

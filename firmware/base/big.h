@@ -1,12 +1,13 @@
-// Whole numbers of up to 2816 bits, enough to convert any double from or to decimal without an error.
-// Context: main loop; a number takes 360 bytes of the caller's stack.
+// Whole numbers of up to 2816 bits, enough to convert any double from or to decimal without an
+// error. Context: main loop; a number takes 360 bytes of the caller's stack.
 #ifndef BASE_BIG_H
 #define BASE_BIG_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-// The longest is 5^1124, for a numeral of 800 digits near the smallest double, and 64 bits of quotient.
+// The longest is 5^1124, for a numeral of 800 digits near the smallest double, and 64 bits of
+// quotient.
 #define BIG_WORDS 88
 
 typedef struct {
@@ -34,8 +35,9 @@ uint64_t big_extract(const big_t *big, int from);
 // True if a bit below bit `end` is set.
 bool big_any_below(const big_t *big, int end);
 
-// Divides; `numerator` becomes the remainder. The quotient has to be below 2^64. Both are shifted by the
-// same number of bits, at most 31, on the way: the remainder counts against the denominator as it is then.
+// Divides; `numerator` becomes the remainder. The quotient has to be below 2^64. Both are shifted
+// by the same number of bits, at most 31, on the way: the remainder counts against the denominator
+// as it is then.
 uint64_t big_divide(big_t *numerator, big_t *denominator);
 
 // True if left >= right.

@@ -1,6 +1,6 @@
-// A double is m * 2^e; its digits are the integer nearest m * 2^e / 10^s. For the numbers people print that
-// takes a product of 128 bits and a shift, or one division of 64 bits; big whole numbers do the rest.
-// Context: main loop.
+// A double is m * 2^e; its digits are the integer nearest m * 2^e / 10^s. For the numbers people
+// print that takes a product of 128 bits and a shift, or one division of 64 bits; big whole numbers
+// do the rest. Context: main loop.
 #include "base/decimal.h"
 
 #include <string.h>

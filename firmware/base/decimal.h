@@ -1,5 +1,5 @@
-// A double as decimal digits, exactly rounded (half away from zero) and the same on every target, numbers
-// that an RP2040 cannot compute with (below 2.2e-308) included. Context: main loop.
+// A double as decimal digits, exactly rounded (half away from zero) and the same on every target,
+// numbers that an RP2040 cannot compute with (below 2.2e-308) included. Context: main loop.
 #ifndef BASE_DECIMAL_H
 #define BASE_DECIMAL_H
 

@@ -17,7 +17,8 @@ typedef enum {
 #define ERR_MESSAGE_SIZE 160
 
 // Makes `code` the current error. If its text in err.def has a `%`, the formatted detail takes the
-// place of that character; otherwise pass NULL. Returns `code`, so that `return err_raise(...)` works.
+// place of that character; otherwise pass NULL. Returns `code`, so that `return err_raise(...)`
+// works.
 err_t err_raise(err_t code, const char *detail_format, ...) __attribute__((format(printf, 2, 3)));
 
 // The code of the error raised last.

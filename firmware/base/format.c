@@ -58,7 +58,7 @@ static void put_field(sink_t *sink, const field_t *field, const char *text, size
     }
 }
 
-// ---- Reading the format --------------------------------------------------------------------------
+// ---- Reading the format -------------------------------------------------------------------------
 
 static const char *read_count(const char *p, va_list *args, int *count) {
     if (*p == '*') {
@@ -99,7 +99,7 @@ static const char *read_field(const char *p, va_list *args, field_t *field) {
     return read_size(p, &field->size);
 }
 
-// ---- Conversions ---------------------------------------------------------------------------------
+// ---- Conversions --------------------------------------------------------------------------------
 
 static int64_t signed_argument(va_list *args, int size) {
     switch (size) {
@@ -210,7 +210,7 @@ static bool convert(sink_t *sink, const field_t *field, char letter, va_list *ar
     }
 }
 
-// ---- Face ----------------------------------------------------------------------------------------
+// ---- Face ---------------------------------------------------------------------------------------
 
 size_t format_list(char *buffer, size_t size, const char *format, va_list args) {
     sink_t sink = {buffer, size, 0};

@@ -1,6 +1,7 @@
-// Decimal numerals to double. Up to 19 digits are gathered in an integer; where that integer and the
-// power of ten are both exact doubles (15 digits, 10^22: Clinger's fast path) one multiplication or
-// division rounds once and is exact. All else is done with whole numbers of any length. Context: main loop.
+// Decimal numerals to double. Up to 19 digits are gathered in an integer; where that integer and
+// the power of ten are both exact doubles (15 digits, 10^22: Clinger's fast path) one
+// multiplication or division rounds once and is exact. All else is done with whole numbers of any
+// length. Context: main loop.
 #include "base/num.h"
 
 #include <math.h>
@@ -49,7 +50,8 @@ static const char *parse_exponent(const char *text, const char *end, int *expone
     return p;
 }
 
-// The double nearest to `top` * 2^`exponent`, whose highest bit is set; `more`: a little more than that.
+// The double nearest to `top` * 2^`exponent`, whose highest bit is set; `more`: a little more than
+// that.
 static double assemble(uint64_t top, int exponent, bool more) {
     int power = exponent + 63; // of the highest bit
     int dropped = power >= -1022 ? 11 : 11 - 1022 - power;
@@ -63,7 +65,8 @@ static double assemble(uint64_t top, int exponent, bool more) {
     uint64_t rest = top << (64 - dropped) % 64;
     uint64_t half = (uint64_t)1 << 63;
     mantissa += rest > half || (rest == half && (more || (mantissa & 1) != 0));
-    // The mantissa's own highest bit counts one up in the exponent, and so does what rounding carries.
+    // The mantissa's own highest bit counts one up in the exponent, and so does what rounding
+    // carries.
     uint64_t bits = mantissa + (power >= -1022 ? (uint64_t)(power + 1022) << 52 : 0);
     double number;
     memcpy(&number, &bits, sizeof number);

@@ -14,9 +14,10 @@ typedef struct {
 } num_t;
 
 // Reads digits [. digits] [E [sign] digits] from `text` up to `end`; no sign, no blanks, no
-// hexadecimal, no NaN or infinity. The exponent is taken only with `allow_exponent` (G-code has none:
-// there an E is the next word) and only if digits follow it.
-// Returns the place behind the numeral, or NULL if there is no digit or the number is beyond double.
+// hexadecimal, no NaN or infinity. The exponent is taken only with `allow_exponent` (G-code has
+// none: there an E is the next word) and only if digits follow it.
+// Returns the place behind the numeral, or NULL if there is no digit or the number is beyond
+// double.
 const char *num_parse(const char *text, const char *end, bool allow_exponent, num_t *out);
 
 #endif

@@ -1,5 +1,6 @@
-// Numbers as text. Digits come from decimal.h as an integer, which is cut into digits with as few divisions
-// as possible: a core without a divider of 64 bits spends its time there. Context: main loop.
+// Numbers as text. Digits come from decimal.h as an integer, which is cut into digits with as few
+// divisions as possible: a core without a divider of 64 bits spends its time there. Context: main
+// loop.
 #include "base/num_text.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 #define EIGHT_DIGITS 100000000u
 #define FOUR_DIGITS 10000u
 
-// ---- Digits --------------------------------------------------------------------------------------
+// ---- Digits -------------------------------------------------------------------------------------
 
 // Writes the four digits of `number` before `end`.
 static void put_four(char *end, uint32_t number) {
@@ -64,7 +65,7 @@ static void strip_zeros(digits_t *digits) {
     }
 }
 
-// ---- Text ----------------------------------------------------------------------------------------
+// ---- Text ---------------------------------------------------------------------------------------
 
 static char *put_zeros(char *p, int count) {
     while (count-- > 0) {
@@ -90,8 +91,8 @@ static size_t put_special(char *buffer, double number) {
     return strlen(buffer);
 }
 
-// Writes the sign of a negative number and makes it positive; -0.0 has none. By its bits: an RP2040 compares
-// the smallest doubles as if they were 0.
+// Writes the sign of a negative number and makes it positive; -0.0 has none. By its bits: an RP2040
+// compares the smallest doubles as if they were 0.
 static char *put_sign(char *p, double *number) {
     uint64_t bits;
     memcpy(&bits, number, sizeof bits);
@@ -105,8 +106,8 @@ static char *put_sign(char *p, double *number) {
     return p;
 }
 
-// The digits with a point behind `whole` of them (may be none, or more than there are), then zeros up to
-// `decimals` behind the point.
+// The digits with a point behind `whole` of them (may be none, or more than there are), then zeros
+// up to `decimals` behind the point.
 static char *put_point(char *p, const digits_t *digits, int whole, int decimals) {
     int before = whole < 0 ? 0 : whole < digits->count ? whole : digits->count;
     if (whole <= 0) {
@@ -157,7 +158,7 @@ static int limited(int value, int least, int most) {
     return value < least ? least : value > most ? most : value;
 }
 
-// ---- Face ----------------------------------------------------------------------------------------
+// ---- Face ---------------------------------------------------------------------------------------
 
 size_t num_text_fixed(char *buffer, double number, int decimals) {
     if (!isfinite(number)) {

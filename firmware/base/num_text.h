@@ -1,5 +1,5 @@
-// Numbers as decimal text, exactly rounded (half away from zero) and the same on every target, without the
-// C library, whose conversion allocates. Context: main loop.
+// Numbers as decimal text, exactly rounded (half away from zero) and the same on every target,
+// without the C library, whose conversion allocates. Context: main loop.
 #ifndef BASE_NUM_TEXT_H
 #define BASE_NUM_TEXT_H
 
@@ -10,8 +10,8 @@
 #define NUM_TEXT_SIZE 360
 #define NUM_TEXT_DECIMALS_MAX 30
 
-// All write a zero-terminated text to `buffer` and return its length. No leading blank. Of a double at
-// most 17 digits are meaningful; behind them come zeros. Not numbers: nan, inf, -inf.
+// All write a zero-terminated text to `buffer` and return its length. No leading blank. Of a double
+// at most 17 digits are meaningful; behind them come zeros. Not numbers: nan, inf, -inf.
 
 // 12.50: always `decimals` digits behind the point.
 size_t num_text_fixed(char *buffer, double number, int decimals);

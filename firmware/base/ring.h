@@ -1,8 +1,9 @@
 // Indices of a ring with one writer and one reader, who may live in different contexts.
-// The slots belong to the owner; this keeps only who may touch which. Indices run freely and wrap at
-// 2^32, so every slot can be used and `written - read` is the fill; a size need not be a power of two
-// as long as it is at most RING_MAX_SIZE, because each side keeps its own slot number beside its count.
-// Context: `ring_put`, `_fill` and `_publish` in the writer's, `ring_take` in the reader's, the counts in any.
+// The slots belong to the owner; this keeps only who may touch which. Indices run freely and wrap
+// at 2^32, so every slot can be used and `written - read` is the fill; a size need not be a power
+// of two as long as it is at most RING_MAX_SIZE, because each side keeps its own slot number beside
+// its count. Context: `ring_put`, `_fill` and `_publish` in the writer's, `ring_take` in the
+// reader's, the counts in any.
 #ifndef BASE_RING_H
 #define BASE_RING_H
 
@@ -32,7 +33,8 @@ static inline uint32_t ring_free(const ring_t *ring) {
     return ring->size - ring_used(ring);
 }
 
-// The writer has filled the slot `put_slot` and goes on to the next; the reader does not see it yet.
+// The writer has filled the slot `put_slot` and goes on to the next; the reader does not see it
+// yet.
 static inline void ring_fill(ring_t *ring) {
     ring->put_slot = ring->put_slot + 1 < ring->size ? ring->put_slot + 1 : 0;
 }

@@ -32,7 +32,8 @@ void actions_stop_with(vm_request_t request);
 // DATA as READ sees it (actions_data.c).
 void actions_data_reset(uint32_t first);
 
-// What OPTION sets, for compiling and running; the numbers stand for themselves in actions_option().
+// What OPTION sets, for compiling and running; the numbers stand for themselves in
+// actions_option().
 enum {
     ACTIONS_OPTION_EXPLICIT,
     ACTIONS_OPTION_DEFAULT,

@@ -40,7 +40,7 @@ ACTION_BODY(flush) {
     channels_flush(channels_number(&arguments[0]));
 }
 
-// ---- PRINT # -------------------------------------------------------------------------------------
+// ---- PRINT # ------------------------------------------------------------------------------------
 
 // The line being put together, in the scratch.
 static struct {

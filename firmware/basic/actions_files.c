@@ -44,7 +44,7 @@ ACTION_BODY(rename) {
     check(files_rename(from, file_names_path(&arguments[1])));
 }
 
-// ---- KILL ----------------------------------------------------------------------------------------
+// ---- KILL ---------------------------------------------------------------------------------------
 
 static void kill_all(const char *path) {
     const char *pattern;
@@ -81,7 +81,7 @@ ACTION_BODY(kill) {
     }
 }
 
-// ---- COPY ----------------------------------------------------------------------------------------
+// ---- COPY ---------------------------------------------------------------------------------------
 
 // Ctrl-C: as an error, so that the target is left alone.
 static err_t copy_bytes(int from) {
@@ -117,7 +117,7 @@ ACTION_BODY(copy) {
     check(error);
 }
 
-// ---- XMODEM --------------------------------------------------------------------------------------
+// ---- XMODEM -------------------------------------------------------------------------------------
 
 ACTION_BODY(xmodem_receive) {
     if (count == 0) {
@@ -131,7 +131,7 @@ ACTION_BODY(xmodem_send) {
     check(count == 0 ? transfer_send_program() : transfer_send_file(file_names_path(arguments)));
 }
 
-// ---- Lists ---------------------------------------------------------------------------------------
+// ---- Lists --------------------------------------------------------------------------------------
 
 // The entries of a folder in the order in which FILES shows them, in the scratch.
 typedef struct listed {

@@ -69,7 +69,7 @@ void actions_print_line(value_t *arguments, unsigned count) {
     console_new_line();
 }
 
-// ---- Input ---------------------------------------------------------------------------------------
+// ---- Input --------------------------------------------------------------------------------------
 
 static struct {
     char text[LINE_EDITOR_MAX + 1];

@@ -24,7 +24,7 @@ static variables_array_t *numeric_array(const value_t *argument) {
     return array;
 }
 
-// ---- SORT ----------------------------------------------------------------------------------------
+// ---- SORT ---------------------------------------------------------------------------------------
 
 // A left out argument is VALUE_NONE.
 static int64_t integer_or(const value_t *argument, int64_t otherwise) {
@@ -91,7 +91,7 @@ void actions_sort(value_t *arguments, unsigned count) {
     sort_run(&job);
 }
 
-// ---- MATH ----------------------------------------------------------------------------------------
+// ---- MATH ---------------------------------------------------------------------------------------
 
 // value, array
 void actions_math_set(value_t *arguments, unsigned count) {

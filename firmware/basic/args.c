@@ -38,7 +38,7 @@ const basic_assignment_t *args_assignment(unsigned row) {
     return &config->assignments[row];
 }
 
-// ---- One argument --------------------------------------------------------------------------------
+// ---- One argument -------------------------------------------------------------------------------
 
 // True if the token at hand stands alone between commas (or is the last argument).
 static bool stands_alone(bool in_parentheses) {
@@ -184,7 +184,7 @@ static void compile_raw(void) {
     lexer_go(end);
 }
 
-// ---- The list ------------------------------------------------------------------------------------
+// ---- The list -----------------------------------------------------------------------------------
 
 bool args_takes_data(const basic_arg_spec_t *specs, size_t count) {
     return count > 0 && specs[count - 1].kind == BASIC_ARG_DATA;
@@ -232,7 +232,7 @@ static unsigned compile_list(const basic_arg_spec_t *specs, size_t spec_count,
     return count;
 }
 
-// ---- Names of several words ----------------------------------------------------------------------
+// ---- Names of several words ---------------------------------------------------------------------
 
 static const char *skip_blanks(const char *text, const char *end) {
     while (text < end && (*text == ' ' || *text == '\t')) {
@@ -241,8 +241,8 @@ static const char *skip_blanks(const char *text, const char *end) {
     return text;
 }
 
-// Compares the words of `name` with the source from `text` on. Returns the place behind them, NULL if
-// they are not there.
+// Compares the words of `name` with the source from `text` on. Returns the place behind them, NULL
+// if they are not there.
 static const char *match_words(const char *name, const char *text) {
     const char *end = lexer_line_end();
     for (text = skip_blanks(text, end); *name != '\0'; name++) {

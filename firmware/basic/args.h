@@ -11,13 +11,14 @@
 
 void args_start(const basic_config_t *config);
 
-// ---- Compiling -----------------------------------------------------------------------------------
+// ---- Compiling ----------------------------------------------------------------------------------
 
-// The word at hand is the first of row `row`'s name; true if further words make one of the rows' names whole.
+// The word at hand is the first of row `row`'s name; true if further words make one of the rows'
+// names whole.
 bool args_fits_command(int row);
 
-// The word at hand is the first of row `row`'s name: finds the longest name that fits and compiles the
-// arguments. Errors: unknown subcommand, missing argument, too many.
+// The word at hand is the first of row `row`'s name: finds the longest name that fits and compiles
+// the arguments. Errors: unknown subcommand, missing argument, too many.
 void args_compile_command(int row);
 
 // The same for a function and its parentheses.
@@ -32,7 +33,7 @@ void args_compile_routine(void);
 // The same for an assignment to a function: NAME(arguments) = value.
 void args_compile_assignment(int row);
 
-// ---- Running -------------------------------------------------------------------------------------
+// ---- Running ------------------------------------------------------------------------------------
 
 void args_run(unsigned row, const value_t *values, unsigned count);
 

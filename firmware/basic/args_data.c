@@ -25,7 +25,7 @@ static void check_array(const basic_arg_spec_t *spec, const variables_array_t *a
     }
 }
 
-// ---- Data ----------------------------------------------------------------------------------------
+// ---- Data ---------------------------------------------------------------------------------------
 
 static int64_t count_single(const basic_arg_spec_t *spec, const value_t *value) {
     if (is_array(value)) {
@@ -82,7 +82,7 @@ int64_t basic_data_number(const basic_arg_t *arg, size_t index) {
     return value.type == VALUE_INTEGER ? value.integer : nearest(value.number);
 }
 
-// ---- A variable to write into --------------------------------------------------------------------
+// ---- A variable to write into -------------------------------------------------------------------
 
 void args_data_deliver_store(const basic_arg_spec_t *spec, const value_t *value, basic_arg_t *arg) {
     *arg = (basic_arg_t){.given = true, .integer = 1, .data = {value, 1}};

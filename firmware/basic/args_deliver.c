@@ -1,5 +1,5 @@
-// Values to arguments: conversion, range check and the error that names the argument. Then the call.
-// Context: main loop.
+// Values to arguments: conversion, range check and the error that names the argument. Then the
+// call. Context: main loop.
 #include <string.h>
 
 #include "args.h"
@@ -271,7 +271,7 @@ void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_
     *out_count = total;
 }
 
-// ---- The calls -----------------------------------------------------------------------------------
+// ---- The calls ----------------------------------------------------------------------------------
 
 static basic_arg_t delivered[BASIC_ARGS_MAX]; // a row's function never leads to another's
 

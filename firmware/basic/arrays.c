@@ -29,7 +29,7 @@ static void refuse_if_in_use(const void *bytes, size_t size, const value_t *own)
     }
 }
 
-// ---- ERASE ---------------------------------------------------------------------------------------
+// ---- ERASE --------------------------------------------------------------------------------------
 
 static void release_array(value_t *slot) {
     variables_array_t *array = slot->data;
@@ -72,7 +72,7 @@ void arrays_erase_all(void) {
     symbols_each_of(SYMBOLS_VARIABLE, erase_symbol);
 }
 
-// ---- REDIM ---------------------------------------------------------------------------------------
+// ---- REDIM --------------------------------------------------------------------------------------
 
 // The array was made since the routine that runs was entered, and not outside an EXECUTE around us.
 static bool is_of_this_call(const variables_array_t *array) {

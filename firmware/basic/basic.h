@@ -1,6 +1,6 @@
 // The language: an MMBasic-style interpreter and its console. It knows the syntax and the general
-// statements; the words of the product (STEPPER, TMC22xx, PEEK(STEPPER ...)) are rows of a table that
-// the caller brings along. The face of firmware/basic. Context: main loop.
+// statements; the words of the product (STEPPER, TMC22xx, PEEK(STEPPER ...)) are rows of a table
+// that the caller brings along. The face of firmware/basic. Context: main loop.
 #ifndef BASIC_H
 #define BASIC_H
 
@@ -10,7 +10,7 @@
 
 #include "base/base.h"
 
-// ---- Values --------------------------------------------------------------------------------------
+// ---- Values -------------------------------------------------------------------------------------
 
 typedef enum { BASIC_FLOAT, BASIC_INTEGER, BASIC_STRING } basic_type_t;
 
@@ -28,7 +28,7 @@ typedef struct {
     };
 } basic_value_t;
 
-// ---- Commands ------------------------------------------------------------------------------------
+// ---- Commands -----------------------------------------------------------------------------------
 
 // How an argument is written, and behind the arrow the fields of basic_arg_t it fills.
 typedef enum {
@@ -68,7 +68,8 @@ enum {
     BASIC_ARG_SELECTS = 1 << 5
 };
 
-// One argument of a command: parsing, range check, error text, HELP and the reference page in one row.
+// One argument of a command: parsing, range check, error text, HELP and the reference page in one
+// row.
 typedef struct {
     const char *name; // as in the reference, e.g. "steps_per_unit"
     basic_arg_kind_t kind;
@@ -76,9 +77,9 @@ typedef struct {
     double min, max;  // NUMBER and INTEGER; both 0: no limits
     double fallback;  // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
     const char *unit; // "mm", "mm/s^2"; NULL: none
-    // Words with a bar between, e.g. "X|Y|Z|A". CHOICE: what there is to choose from. NUMBER and INTEGER:
-    // words, + and - among them, that may stand instead of the number; `text` and `integer` are then as
-    // for a CHOICE, and `text` is empty for a number.
+    // Words with a bar between, e.g. "X|Y|Z|A". CHOICE: what there is to choose from. NUMBER and
+    // INTEGER: words, + and - among them, that may stand instead of the number; `text` and `integer`
+    // are then as for a CHOICE, and `text` is empty for a number.
     const char *choices;
     const char *help; // a short sentence without a full stop
 } basic_arg_spec_t;
@@ -114,12 +115,12 @@ typedef struct {
     const char *help; // one sentence for HELP and the reference page
 } basic_command_t;
 
-// An assignment to a function, as PIN(GP2) = 1: a row with the function's name, whose args[0] is the value
-// behind the equals sign and whose further arguments are those in the parentheses.
+// An assignment to a function, as PIN(GP2) = 1: a row with the function's name, whose args[0] is
+// the value behind the equals sign and whose further arguments are those in the parentheses.
 typedef basic_command_t basic_assignment_t;
 
-// Computes a function's value. `result` arrives as integer 0; a text result must stay valid until the
-// next call of the same function.
+// Computes a function's value. `result` arrives as integer 0; a text result must stay valid until
+// the next call of the same function.
 typedef err_t (*basic_evaluate_t)(const basic_arg_t *args, size_t count, basic_value_t *result);
 
 typedef struct {
@@ -132,10 +133,10 @@ typedef struct {
     const char *help;
 } basic_function_t;
 
-// ---- Events --------------------------------------------------------------------------------------
+// ---- Events -------------------------------------------------------------------------------------
 
-// Interrupts of a program: an event calls a SUB at the start of the next statement, or while PAUSE waits;
-// never inside the SUB of another one. They live while a program (or a line) runs.
+// Interrupts of a program: an event calls a SUB at the start of the next statement, or while PAUSE
+// waits; never inside the SUB of another one. They live while a program (or a line) runs.
 
 typedef uint16_t basic_routine_t; // a SUB of the program, valid while it runs; 0: none
 
@@ -151,7 +152,8 @@ enum {
     BASIC_EVENTS = 32
 };
 
-// The SUB of this name, for names that come in a string. Errors: there is none, or it has parameters.
+// The SUB of this name, for names that come in a string. Errors: there is none, or it has
+// parameters.
 err_t basic_find_routine(basic_text_t name, basic_routine_t *routine);
 
 // Which SUB the event calls; 0: none, and an event that waits is forgotten.
@@ -161,7 +163,7 @@ void basic_set_event(unsigned event, basic_routine_t routine);
 // Context: main loop, for instance the background.
 void basic_raise_event(unsigned event);
 
-// ---- Start ---------------------------------------------------------------------------------------
+// ---- Start --------------------------------------------------------------------------------------
 
 typedef struct {
     void *arena; // all memory of variables, strings and the program; nothing else is allocated
@@ -176,15 +178,17 @@ typedef struct {
     void (*background)(void);
     // Called once when the user pressed Ctrl-C; NULL: none.
     void (*on_break)(void);
-    // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL: none.
+    // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL:
+    // none.
     void (*on_clear)(void);
     // An error has ended a program (not a line at the prompt), before it is printed. NULL: none.
     void (*on_error)(void);
-    // Asked before CPU RESTART and the boot loader: an error that is raised refuses it. NULL: always.
+    // Asked before CPU RESTART and the boot loader: an error that is raised refuses it. NULL:
+    // always.
     err_t (*may_restart)(void);
-    // Called as soon as a control character other than Ctrl-C comes from the terminal: in the middle of a
-    // statement, of output or of a line being typed. True: it was meant for the product and is no input.
-    // May call basic_notice(); must not raise errors. NULL: all are input.
+    // Called as soon as a control character other than Ctrl-C comes from the terminal: in the
+    // middle of a statement, of output or of a line being typed. True: it was meant for the product
+    // and is no input. May call basic_notice(); must not raise errors. NULL: all are input.
     bool (*on_control)(char c);
     const char *banner; // printed by basic_start(), lines end with \r\n
     // What OPEN takes besides files (basic_device.h); NULL with a count of 0: files only.
@@ -195,25 +199,27 @@ typedef struct {
 // Takes the configuration (which must stay valid), clears everything and prints the banner.
 void basic_start(const basic_config_t *config);
 
-// Carries out what a board does at power-up before the prompt: MM.STARTUP of the stored program, and the program
-// itself if OPTION AUTORUN is on. Not after a start because of a fault, or if Ctrl-C comes first.
+// Carries out what a board does at power-up before the prompt: MM.STARTUP of the stored program,
+// and the program itself if OPTION AUTORUN is on. Not after a start because of a fault, or if
+// Ctrl-C comes first.
 void basic_boot(void);
 
-// Runs `source`, whose lines end with \n and which has to stay valid, to its end. Prints the error if there is one.
+// Runs `source`, whose lines end with \n and which has to stay valid, to its end. Prints the error
+// if there is one.
 err_t basic_run_program(const char *source, size_t length);
 
-// One turn of the prompt: shows it, waits for a line, carries it out, prints an error if there is one.
-// False if there is no line and no more input can come.
+// One turn of the prompt: shows it, waits for a line, carries it out, prints an error if there is
+// one. False if there is no line and no more input can come.
 bool basic_prompt(void);
 
-// ---- For command handlers ------------------------------------------------------------------------
+// ---- For command handlers -----------------------------------------------------------------------
 
 // Prints to the console; a bare \n in the format becomes \r\n.
 void basic_printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // A line from outside the running statement (an event of the machine). It stands on a line of its
-// own: a line being typed is taken away and drawn again below. Shown at the next place where that can be
-// done, in the middle of output not before the statement ends.
+// own: a line being typed is taken away and drawn again below. Shown at the next place where that
+// can be done, in the middle of output not before the statement ends.
 void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // The number at `index`, below arg->integer, of a BASIC_ARG_DATA; of a string it is the byte there.
@@ -223,23 +229,23 @@ int64_t basic_data_number(const basic_arg_t *arg, size_t index);
 // Writes the number at `index`, below arg->integer, of a BASIC_ARG_STORE; a string ends behind it.
 void basic_store_number(const basic_arg_t *arg, size_t index, int64_t number);
 
-// A setting of the product that outlives power-off: what was set, or the fallback. The name is that of the
-// command that sets it, without OPTION. Quick enough to be asked each time.
+// A setting of the product that outlives power-off: what was set, or the fallback. The name is that
+// of the command that sets it, without OPTION. Quick enough to be asked each time.
 int64_t basic_option(const char *name, int64_t fallback);
 
 // Errors: motion is under way, no room; the setting is as it was.
 err_t basic_set_option(const char *name, int64_t value);
 
-// A setting of the product with a meaning here: what a bare number stands for where a pin is wanted. One rule
-// for all rows, or (if it was not set) what each row says.
+// A setting of the product with a meaning here: what a bare number stands for where a pin is
+// wanted. One rule for all rows, or (if it was not set) what each row says.
 #define BASIC_PIN_NUMBERS "PIN NUMBERS"
 enum { BASIC_PIN_NUMBERS_GPIO, BASIC_PIN_NUMBERS_BOARD, BASIC_PIN_NUMBERS_BY_ROW };
 
 // True if the user pressed Ctrl-C and the statement should end; a handler that waits must ask.
 bool basic_break_pending(void);
 
-// Sleeps until something happens or `until_us`, while the background and the console go on. False if
-// the user pressed Ctrl-C and the statement should end.
+// Sleeps until something happens or `until_us`, while the background and the console go on. False
+// if the user pressed Ctrl-C and the statement should end.
 bool basic_wait(uint64_t until_us);
 
 #endif

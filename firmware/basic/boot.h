@@ -4,9 +4,9 @@
 
 #include <stdbool.h>
 
-// At power-up: false if the program must not be started, because the firmware crashed or hung the last time
-// or because the user says so by Ctrl-C. If that key does not end a running program (OPTION BREAK) there
-// are some seconds for it.
+// At power-up: false if the program must not be started, because the firmware crashed or hung the
+// last time or because the user says so by Ctrl-C. If that key does not end a running program
+// (OPTION BREAK) there are some seconds for it.
 bool boot_is_wanted(void);
 
 #endif

@@ -54,7 +54,7 @@ static void check(err_t error) {
     }
 }
 
-// ---- Opening and closing -------------------------------------------------------------------------
+// ---- Opening and closing ------------------------------------------------------------------------
 
 static bool is_device(const basic_device_t *device, basic_text_t name) {
     size_t length = strlen(device->name);
@@ -109,7 +109,7 @@ err_t channels_end_program(void) {
     return error;
 }
 
-// ---- Writing -------------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 static void wait_for_device(void) {
     if (console_break_pending()) {
@@ -153,7 +153,7 @@ unsigned channels_column(unsigned number) {
     return number == 0 ? console_column() : channel_of(number)->column;
 }
 
-// ---- Reading -------------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 static size_t read_some(const channel_t *channel, char *bytes, size_t size) {
     size_t got = 0;
@@ -251,7 +251,7 @@ size_t channels_read(unsigned number, char *bytes, size_t size) {
     return got;
 }
 
-// ---- The rest ------------------------------------------------------------------------------------
+// ---- The rest -----------------------------------------------------------------------------------
 
 bool channels_at_end(unsigned number) {
     if (number == 0) {

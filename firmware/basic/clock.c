@@ -66,9 +66,10 @@ int64_t clock_seconds(const clock_date_t *date) {
     return days * DAY_SECONDS + (int64_t)date->hour * 3600 + date->minute * 60 + date->second;
 }
 
-// ---- Reading -------------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
-// Numbers of up to four digits with one of `separators` between. Returns how many, 0 if it is not that.
+// Numbers of up to four digits with one of `separators` between. Returns how many, 0 if it is not
+// that.
 static unsigned read_fields(const char *text, size_t length, const char *separators,
                             unsigned fields[FIELDS]) {
     const char *end = text + length;

@@ -1,5 +1,5 @@
-// The time of day, counted by the board's timer from when it was set. After a start it is 00:00:00 on the
-// 1st of January 2000. Context: main loop.
+// The time of day, counted by the board's timer from when it was set. After a start it is 00:00:00
+// on the 1st of January 2000. Context: main loop.
 #ifndef BASIC_CLOCK_H
 #define BASIC_CLOCK_H
 

@@ -1,6 +1,7 @@
-// The compiled form of a statement: one-byte instructions for a stack machine, operands behind them.
+// The compiled form of a statement: one-byte instructions for a stack machine, operands behind
+// them.
 //
-//   v  variable: 16 bits, a handle of the arena, or LOCAL_FLAG and the place among the routine's locals
+//   v  variable: 16 bits, a handle of the arena, or LOCAL_FLAG and the place among the locals
 //   p  place in code: 24 bits, offset from the arena's base
 //   n  one byte, w two bytes (low first), t a length byte and text
 //

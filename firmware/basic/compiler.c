@@ -71,7 +71,7 @@ void compiler_new_statement(void) {
     begin_statement();
 }
 
-// ---- Faults found while compiling ----------------------------------------------------------------
+// ---- Faults found while compiling ---------------------------------------------------------------
 
 static uint32_t emit_stub(err_t code) {
     uint32_t place = emit_here();
@@ -81,7 +81,7 @@ static uint32_t emit_stub(err_t code) {
     return place;
 }
 
-// ---- DATA ----------------------------------------------------------------------------------------
+// ---- DATA ---------------------------------------------------------------------------------------
 
 void compiler_link_data(void) {
     uint32_t here = emit_here() - 1; // OP_DATA
@@ -94,7 +94,7 @@ void compiler_link_data(void) {
     emit_place(0);
 }
 
-// ---- Statements ----------------------------------------------------------------------------------
+// ---- Statements ---------------------------------------------------------------------------------
 
 // A statement of this line that fails.
 static uint32_t emit_failing(unsigned line, int code) {
@@ -184,7 +184,8 @@ static void emit_failure(uint32_t start) {
     emit_text(err_message(), strlen(err_message()));
 }
 
-// Blocks and a routine still open end here: at the end of the program, or where the next routine starts.
+// Blocks and a routine still open end here: at the end of the program, or where the next routine
+// starts.
 static void close_all(void) {
     if (blocks_abandon() != NULL) {
         statements_abandon_routine();
@@ -212,7 +213,7 @@ static bool compile_statement_of_program(void) {
     return true;
 }
 
-// ---- Lines ---------------------------------------------------------------------------------------
+// ---- Lines --------------------------------------------------------------------------------------
 
 // `name:` or a line number opening the line. Returns the text behind.
 static const char *compile_label(const char *text, const char *end) {
@@ -277,9 +278,10 @@ static void each_line(const char *text, size_t length, void (*visit)(void)) {
     }
 }
 
-// ---- Programs ------------------------------------------------------------------------------------
+// ---- Programs -----------------------------------------------------------------------------------
 
-// SUBs and FUNCTIONs are known before the first line is compiled, so that they can be called anywhere.
+// SUBs and FUNCTIONs are known before the first line is compiled, so that they can be called
+// anywhere.
 static void declare_routine(void) {
     lexer_start(line_start, line_end);
     if (lexer_now()->kind == LEXER_NUMBER) {
@@ -328,7 +330,7 @@ const uint8_t *compiler_program(const char *text, size_t length) {
     return memory.base + start;
 }
 
-// ---- Lines from the prompt, text that a program makes ---------------------------------------------
+// ---- Lines from the prompt, text that a program makes -------------------------------------------
 
 // Code goes to the scratch. `stack` is where the stack of values is free.
 static uint8_t *start_loose(const char *text, size_t length, size_t code_size, value_t *stack) {

@@ -1,6 +1,6 @@
-// Turns source text into code, once: statement by statement, with names and jumps resolved. A statement
-// that does not compile becomes code that raises its error, so a fault shows when (and only if) the
-// program gets there. Context: main loop.
+// Turns source text into code, once: statement by statement, with names and jumps resolved. A
+// statement that does not compile becomes code that raises its error, so a fault shows when (and
+// only if) the program gets there. Context: main loop.
 #ifndef BASIC_COMPILER_H
 #define BASIC_COMPILER_H
 
@@ -18,10 +18,11 @@ const uint8_t *compiler_program(const char *text, size_t length);
 const uint8_t *compiler_line(const char *text, size_t length);
 
 // Compiles statements, or an expression, that a program gives as text while it runs. `end` is the
-// instruction behind the code: INDIRECT_EXECUTE_END or INDIRECT_EVAL_END. Errors: those of the text.
+// instruction behind the code: INDIRECT_EXECUTE_END or INDIRECT_EVAL_END. Errors: those of the
+// text.
 const uint8_t *compiler_text(const char *text, size_t length, indirect_kind_t end);
 
-// ---- For the statements --------------------------------------------------------------------------
+// ---- For the statements -------------------------------------------------------------------------
 
 // Compiles the statement at the token at hand, and goes to its end.
 void compiler_statement(void);
@@ -29,7 +30,8 @@ void compiler_statement(void);
 // True while a line from the prompt is compiled.
 bool compiler_at_prompt(void);
 
-// True if it is not a program that is compiled: a line from the prompt, or text for EXECUTE and EVAL.
+// True if it is not a program that is compiled: a line from the prompt, or text for EXECUTE and
+// EVAL.
 bool compiler_is_loose(void);
 
 // Where the statement being compiled starts.
@@ -48,8 +50,8 @@ void compiler_link_data(void);
 // Makes the statement that starts at `place` raise this error, because its block was never closed.
 void compiler_spoil(uint32_t place, int code);
 
-// The same for a SUB or FUNCTION: the program goes on behind it, and a call of it, which is to start at
-// the place returned, meets the error and comes back.
+// The same for a SUB or FUNCTION: the program goes on behind it, and a call of it, which is to
+// start at the place returned, meets the error and comes back.
 uint32_t compiler_spoil_routine(uint32_t place, int code);
 
 #endif

@@ -1,5 +1,5 @@
-// DIM, LOCAL, STATIC: [type] name[(sizes)] [AS type] [LENGTH n] [= values], ... Context: main loop, while
-// compiling.
+// DIM, LOCAL, STATIC: [type] name[(sizes)] [AS type] [LENGTH n] [= values], ... Context: main loop,
+// while compiling.
 #include "declare.h"
 
 #include "emit.h"
@@ -129,7 +129,8 @@ void declare_compile(declare_kind_t kind) {
     } while (lexer_take(','));
 }
 
-// What ACTIONS_REDIM gets: the sizes, the type or VALUE_NONE, the length or 0, the variable, PRESERVE.
+// What ACTIONS_REDIM gets: the sizes, the type or VALUE_NONE, the length or 0, the variable,
+// PRESERVE.
 static void compile_one_again(uint8_t list_type, bool preserve) {
     lexer_token_t name = *lexer_now();
     if (name.kind != LEXER_NAME || words_is_reserved(name.text, name.length)) {

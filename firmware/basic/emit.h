@@ -10,7 +10,8 @@
 #include "indirect.h"
 #include "value.h"
 
-// Code goes to the start of the heap until emit_finish() (a program) or to `size` bytes at `buffer`.
+// Code goes to the start of the heap until emit_finish() (a program) or to `size` bytes at
+// `buffer`.
 void emit_start_program(void);
 void emit_start_line(uint8_t *buffer, size_t size);
 

@@ -78,7 +78,7 @@ basic_routine_t events_routine(const char *name, size_t length) {
     return routine;
 }
 
-// ---- Setting and raising -------------------------------------------------------------------------
+// ---- Setting and raising ------------------------------------------------------------------------
 
 void basic_set_event(unsigned event, basic_routine_t routine) {
     events.routines[event] = routine;
@@ -129,7 +129,7 @@ void events_set_key_code(int code, basic_routine_t routine) {
     basic_set_event(BASIC_EVENT_KEY_CODE, on ? routine : 0);
 }
 
-// ---- Looking -------------------------------------------------------------------------------------
+// ---- Looking ------------------------------------------------------------------------------------
 
 static void look_at_tick(unsigned tick, uint64_t now) {
     tick_t *timer = &events.ticks[tick];
@@ -167,9 +167,10 @@ uint64_t events_next_us(uint64_t until_us) {
     return until_us;
 }
 
-// ---- Serving -------------------------------------------------------------------------------------
+// ---- Serving ------------------------------------------------------------------------------------
 
-// A program that is as deep as it may be is not ended by an event: the event waits until there is room.
+// A program that is as deep as it may be is not ended by an event: the event waits until there is
+// room.
 static bool has_room(const symbols_routine_t *routine) {
     return calls_have_room(routine) && memory_free() > MEMORY_NEEDED;
 }

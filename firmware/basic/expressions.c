@@ -1,4 +1,5 @@
-// Expressions. Operators are rows of a table: to add one, add a row. Context: main loop, while compiling.
+// Expressions. Operators are rows of a table: to add one, add a row. Context: main loop, while
+// compiling.
 #include "expressions.h"
 
 #include <string.h>
@@ -13,8 +14,9 @@
 #include "symbols.h"
 #include "words.h"
 
-// The C stack bounds what may stand inside each other: an operator that binds more tightly than the one
-// before costs some 60 bytes of it, and counts one; parentheses, arguments and subscripts count four.
+// The C stack bounds what may stand inside each other: an operator that binds more tightly than the
+// one before costs some 60 bytes of it, and counts one; parentheses, arguments and subscripts count
+// four.
 #define NESTING_MAX 132
 
 typedef struct {

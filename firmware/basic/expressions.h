@@ -1,4 +1,5 @@
-// Compiles expressions: a Pratt parser over a table of operators. Context: main loop, while compiling.
+// Compiles expressions: a Pratt parser over a table of operators. Context: main loop, while
+// compiling.
 #ifndef BASIC_EXPRESSIONS_H
 #define BASIC_EXPRESSIONS_H
 
@@ -25,8 +26,8 @@ uint16_t expressions_compile_name(void);
 // `( a, b ... )` up to and with the closing parenthesis; returns how many there were.
 unsigned expressions_compile_subscripts(void);
 
-// Arguments of a routine up to the end of the statement or `)`; returns how many. Blanks are allowed
-// except as the first and the last. Errors: argument list.
+// Arguments of a routine up to the end of the statement or `)`; returns how many. Blanks are
+// allowed except as the first and the last. Errors: argument list.
 unsigned expressions_compile_arguments(int closing);
 
 // A variable or element to write to, as a reference on the stack.
@@ -35,8 +36,8 @@ void expressions_compile_reference(void);
 // The same, or name() for a whole array.
 void expressions_compile_reference_or_array(void);
 
-// `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference. `arrays`:
-// name() is allowed and is the whole array.
+// `name()` or `name(subscripts)` or `name`; leaves the value, or with `reference` a reference.
+// `arrays`: name() is allowed and is the whole array.
 void expressions_compile_variable(bool reference, bool arrays);
 
 // Forgets the nesting an error left.

@@ -130,7 +130,7 @@ static unsigned compile_arguments(const functions_row_t *function) {
     return count;
 }
 
-// ---- Special forms -------------------------------------------------------------------------------
+// ---- Special forms ------------------------------------------------------------------------------
 
 // CALL(name$, arguments) and EVAL(text$).
 static void compile_indirect(void) {

@@ -1,5 +1,5 @@
-// The table of built-in functions. To add one: a row here, its declaration in functions.h, its body in
-// the file of its subject. Context: main loop.
+// The table of built-in functions. To add one: a row here, its declaration in functions.h, its body
+// in the file of its subject. Context: main loop.
 #include "functions.h"
 
 #include <string.h>

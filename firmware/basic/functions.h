@@ -13,9 +13,9 @@ typedef void (*functions_evaluate_t)(value_t *arguments, unsigned count, value_t
 typedef struct {
     const char *name;
     // A letter for each argument, the last one standing for all further ones: i integer, f float,
-    // n either number, s string, v any value, a a whole array, c number of a channel, d a value or a
-    // whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or string,
-    // k a word without a comma behind it,
+    // n either number, s string, v any value, a a whole array, c number of a channel, d a value or
+    // a whole array, I integer or left blank (VALUE_NONE), r a variable to write to, w a word or
+    // string, k a word without a comma behind it,
     // t the word NOW (VALUE_NONE) or any value, p a pin.
     // `(`: a family of functions whose keyword stands in the parentheses, rows "NAME(KEYWORD".
     const char *types;

@@ -17,7 +17,7 @@ static void set_checked(value_t *result, double number) {
     value_set_number(result, number);
 }
 
-// ---- From an angle -------------------------------------------------------------------------------
+// ---- From an angle ------------------------------------------------------------------------------
 
 // The sine of an angle in degrees plus `quarters` right angles; exact where both are whole.
 static double sine_of_degrees(double degrees, int quarters) {
@@ -55,7 +55,7 @@ FUNCTION(tan) {
                 vm.degrees ? sine_of_degrees(angle, 0) / sine_of_degrees(angle, 1) : tan(angle));
 }
 
-// ---- To an angle ---------------------------------------------------------------------------------
+// ---- To an angle --------------------------------------------------------------------------------
 
 static void set_angle(value_t *result, double radians) {
     value_set_number(result, vm.degrees ? radians * 180.0 / pi : radians);
@@ -95,7 +95,7 @@ FUNCTION(acos) {
     set_angle(result, acos(in_unit_range(arguments)));
 }
 
-// ---- Units ---------------------------------------------------------------------------------------
+// ---- Units --------------------------------------------------------------------------------------
 
 FUNCTION(pi) {
     UNUSED_COUNT();

@@ -11,7 +11,7 @@
 
 #define FUNCTION(name) void functions_##name(value_t *arguments, unsigned count, value_t *result)
 
-// ---- STR2BIN, BIN2STR$ ---------------------------------------------------------------------------
+// ---- STR2BIN, BIN2STR$ --------------------------------------------------------------------------
 
 typedef enum { FORMAT_SIGNED, FORMAT_UNSIGNED, FORMAT_FLOAT } format_kind_t;
 
@@ -131,7 +131,7 @@ FUNCTION(bin2str) {
     value_set_text(result, bytes, format->size);
 }
 
-// ---- BYTE, BIT -----------------------------------------------------------------------------------
+// ---- BYTE, BIT ----------------------------------------------------------------------------------
 
 static unsigned in_range(const value_t *argument, int64_t least, int64_t most) {
     if (argument->integer < least || argument->integer > most) {
@@ -153,7 +153,7 @@ FUNCTION(bit) {
     value_set_integer(result, (int64_t)((uint64_t)arguments[0].integer >> place & 1));
 }
 
-// ---- Checksums -----------------------------------------------------------------------------------
+// ---- Checksums ----------------------------------------------------------------------------------
 
 typedef struct {
     unsigned width; // bits

@@ -93,7 +93,7 @@ FUNCTION(day) {
     set_text(result, name, strlen(name));
 }
 
-// ---- Setting -------------------------------------------------------------------------------------
+// ---- Setting ------------------------------------------------------------------------------------
 
 static void set_clock(const value_t *value,
                       bool (*read)(const char *text, size_t length, clock_date_t *date)) {

@@ -63,7 +63,7 @@ FUNCTION(info_program) {
     value_set_integer(result, (int64_t)program_length());
 }
 
-// ---- The disk ------------------------------------------------------------------------------------
+// ---- The disk -----------------------------------------------------------------------------------
 
 static void expect_word(const value_t *value, const char *word) {
     if (choices_find(word, value->text, value->length) < 0) {
@@ -97,7 +97,7 @@ FUNCTION(info_disk) {
     value_set_integer(result, total);
 }
 
-// ---- Pins ----------------------------------------------------------------------------------------
+// ---- Pins ---------------------------------------------------------------------------------------
 
 static unsigned pin_of(const value_t *value) {
     static const basic_arg_spec_t spec = {

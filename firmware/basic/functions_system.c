@@ -37,7 +37,8 @@ FUNCTION(pos) {
     value_set_integer(result, (int64_t)console_column() + 1);
 }
 
-// Keys that have no character have the codes that MMBasic gives them: 128 is up, 145 F1, 177 Shift-F1.
+// Keys that have no character have the codes that MMBasic gives them: 128 is up, 145 F1, 177
+// Shift-F1.
 FUNCTION(inkey) {
     (void)arguments;
     (void)count;

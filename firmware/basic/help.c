@@ -1,4 +1,5 @@
-// HELP, made of the tables of statements, functions and the configuration's rows. Context: main loop.
+// HELP, made of the tables of statements, functions and the configuration's rows. Context: main
+// loop.
 #include "help.h"
 
 #include <string.h>

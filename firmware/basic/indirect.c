@@ -12,7 +12,7 @@
 #include "symbols.h"
 #include "vm.h"
 
-// ---- CALL ----------------------------------------------------------------------------------------
+// ---- CALL ---------------------------------------------------------------------------------------
 
 static const symbols_routine_t *find_routine(const value_t *name) {
     if (name->type != VALUE_STRING) {
@@ -32,7 +32,7 @@ static void call(bool is_function, unsigned count) {
     calls_enter(routine, count);
 }
 
-// ---- EVAL, EXECUTE -------------------------------------------------------------------------------
+// ---- EVAL, EXECUTE ------------------------------------------------------------------------------
 
 // Code for the text on top of the stack, in a frame of its own. It ends with the END of `kind`.
 static void enter(indirect_kind_t kind, const symbols_routine_t *mark) {

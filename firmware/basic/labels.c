@@ -72,7 +72,7 @@ void labels_define(const char *name, size_t length) {
     label->label.code = emit_here();
 }
 
-// ---- Chains --------------------------------------------------------------------------------------
+// ---- Chains -------------------------------------------------------------------------------------
 
 static uint32_t failed_from; // where the code taken back starts
 

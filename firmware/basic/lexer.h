@@ -57,7 +57,8 @@ bool lexer_is_word(const char *word);
 void lexer_expect(int symbol);
 void lexer_expect_word(const char *word);
 
-// True at the end of a statement: end of the line, a colon, or ELSE where lexer_set_else_ends(true).
+// True at the end of a statement: end of the line, a colon, or ELSE where
+// lexer_set_else_ends(true).
 bool lexer_at_end(void);
 
 // Whether ELSE ends a statement just now (in a single-line IF). Returns what was set.

@@ -45,7 +45,7 @@ void memory_settle(void) {
     memory.ceiling = memory.scratch - MEMORY_PROMPT_RESERVE;
 }
 
-// ---- Holes in the heap ---------------------------------------------------------------------------
+// ---- Holes in the heap --------------------------------------------------------------------------
 
 typedef struct {
     uint32_t next; // offset of the next hole above, 0: none
@@ -112,7 +112,7 @@ void memory_release(void *place, size_t size) {
     trim_heap();
 }
 
-// ---- Taking --------------------------------------------------------------------------------------
+// ---- Taking -------------------------------------------------------------------------------------
 
 // Takes `size` bytes of the heap.
 static uint8_t *take_heap(size_t size) {

@@ -3,9 +3,9 @@
 //   | stack of values | RUN's argument | code | heap -> ...... <- scratch | program's names |
 //
 // The heap grows upwards and holds what lasts until the next RUN (arrays, strings, names from the
-// prompt). The scratch grows downwards and is unwound: local variables at the end of a SUB, temporary
-// strings at the end of a statement. Only ERASE and REDIM give blocks of the heap back: such holes are
-// filled first, and those that meet become one.
+// prompt). The scratch grows downwards and is unwound: local variables at the end of a SUB,
+// temporary strings at the end of a statement. Only ERASE and REDIM give blocks of the heap back:
+// such holes are filled first, and those that meet become one.
 // Context: main loop.
 #ifndef BASIC_MEMORY_H
 #define BASIC_MEMORY_H
@@ -47,7 +47,8 @@ void memory_settle(void);
 void *memory_heap(size_t size);
 void *memory_scratch(size_t size);
 
-// Gives a block of the heap back, which starts where memory_heap() said or 8 bytes' multiples behind.
+// Gives a block of the heap back, which starts where memory_heap() said or 8 bytes' multiples
+// behind.
 void memory_release(void *place, size_t size);
 
 // Bytes for a string, neither aligned nor zeroed (on a board clearing 256 bytes costs 1000 cycles).

@@ -1,5 +1,5 @@
-// What the console tells the user besides the output of programs: answers of commands, notices, errors.
-// Context: main loop.
+// What the console tells the user besides the output of programs: answers of commands, notices,
+// errors. Context: main loop.
 #include "messages.h"
 
 #include <stdarg.h>

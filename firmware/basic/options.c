@@ -1,6 +1,6 @@
-// The settings are kept as text, a line "NAME=number" for each that is not what it is at first; so a file
-// of an older or newer firmware, or a damaged one, costs no more than the lines that are of no use.
-// Context: main loop.
+// The settings are kept as text, a line "NAME=number" for each that is not what it is at first; so
+// a file of an older or newer firmware, or a damaged one, costs no more than the lines that are of
+// no use. Context: main loop.
 #include "options.h"
 
 #include <string.h>
@@ -31,7 +31,7 @@ static struct {
     const basic_config_t *config;
 } options;
 
-// ---- The text ------------------------------------------------------------------------------------
+// ---- The text -----------------------------------------------------------------------------------
 
 // The line of this name, or NULL.
 static const char *find_line(const char *name) {
@@ -123,7 +123,7 @@ err_t basic_set_option(const char *name, int64_t value) {
     return keep(name, line);
 }
 
-// ---- The language's own --------------------------------------------------------------------------
+// ---- The language's own -------------------------------------------------------------------------
 
 static void apply(void) {
     int64_t display = options_get(OPTIONS_DISPLAY);
@@ -179,7 +179,7 @@ err_t options_reset(void) {
     return error;
 }
 
-// ---- The list ------------------------------------------------------------------------------------
+// ---- The list -----------------------------------------------------------------------------------
 
 // The words a row of the product chooses from, or NULL.
 static const char *choices_of(const char *name, size_t length) {

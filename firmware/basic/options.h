@@ -1,5 +1,5 @@
-// Settings that outlive power-off, in a file of A:, replaced as a whole. Those of the product are there
-// under the names it gives them (basic_option() in basic.h). Context: main loop.
+// Settings that outlive power-off, in a file of A:, replaced as a whole. Those of the product are
+// there under the names it gives them (basic_option() in basic.h). Context: main loop.
 #ifndef BASIC_OPTIONS_H
 #define BASIC_OPTIONS_H
 

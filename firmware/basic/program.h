@@ -11,9 +11,9 @@
 // Takes the program that is stored. Error: it is damaged; or what program_compile() says.
 err_t program_start(void);
 
-// Stores `text` (which may lie anywhere, the free part of the arena included) and compiles it. All variables
-// are gone. Errors: it could not be stored, then nothing has changed, variables included; or what
-// program_compile() says.
+// Stores `text` (which may lie anywhere, the free part of the arena included) and compiles it. All
+// variables are gone. Errors: it could not be stored, then nothing has changed, variables included;
+// or what program_compile() says.
 err_t program_set_text(const char *text, size_t length);
 
 // The same in two steps: after the first the arena is as it was, for whoever has the text there.
@@ -27,11 +27,12 @@ void program_release(void);
 // As program_set_text(), with what a file holds, which need not fit the memory.
 err_t program_load(const char *path);
 
-// Makes a text the program without storing it; its lines end with \n, and it has to stay where it is.
+// Makes a text the program without storing it; its lines end with \n, and it has to stay where it
+// is.
 err_t program_use_text(const char *text, size_t length);
 
-// Compiles it afresh, which forgets all variables and reserves `argument` (MM.CMDLINE$) for its run.
-// Error: the memory is too small for its code; nothing can be run then, the text stays.
+// Compiles it afresh, which forgets all variables and reserves `argument` (MM.CMDLINE$) for its
+// run. Error: the memory is too small for its code; nothing can be run then, the text stays.
 err_t program_compile(const char *argument, size_t length);
 
 // NULL if it is empty or did not compile.

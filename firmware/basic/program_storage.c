@@ -1,5 +1,5 @@
-// Each place: a page with a header, then the text. The header is written last; the place with the higher
-// sequence number and a correct checksum counts. Context: main loop.
+// Each place: a page with a header, then the text. The header is written last; the place with the
+// higher sequence number and a correct checksum counts. Context: main loop.
 #include "program_storage.h"
 
 #include <string.h>
@@ -19,7 +19,7 @@ static uint32_t header_crc(const header_t *header) {
     return crc_add(0, header, offsetof(header_t, header_crc));
 }
 
-// ---- Reading -------------------------------------------------------------------------------------
+// ---- Reading ------------------------------------------------------------------------------------
 
 typedef enum { PLACE_EMPTY, PLACE_DAMAGED, PLACE_GOOD } place_state_t;
 
@@ -71,7 +71,7 @@ const char *program_storage_text(size_t *length, bool *damaged) {
     return place < PLACES ? text_at(place) : "";
 }
 
-// ---- Writing -------------------------------------------------------------------------------------
+// ---- Writing ------------------------------------------------------------------------------------
 
 void program_storage_begin(program_storage_t *writer) {
     header_t old = {.sequence = 0};

@@ -1,5 +1,5 @@
-// The program in flash. Two places take turns: the old program is there, whole, until the new one is
-// complete. Context: main loop.
+// The program in flash. Two places take turns: the old program is there, whole, until the new one
+// is complete. Context: main loop.
 #ifndef BASIC_PROGRAM_STORAGE_H
 #define BASIC_PROGRAM_STORAGE_H
 

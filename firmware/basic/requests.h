@@ -1,5 +1,5 @@
-// What a statement leaves for the prompt to do once nothing runs any more (vm.request), with the file and
-// the text it is to be done with. Context: main loop.
+// What a statement leaves for the prompt to do once nothing runs any more (vm.request), with the
+// file and the text it is to be done with. Context: main loop.
 #ifndef BASIC_REQUESTS_H
 #define BASIC_REQUESTS_H
 

@@ -1,4 +1,5 @@
-// Runs lines of the prompt and the program, and then does what they have asked for. Context: main loop.
+// Runs lines of the prompt and the program, and then does what they have asked for. Context: main
+// loop.
 #include "runner.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
-// Runs lines of the prompt, the program and single SUBs of it, and then does what they have asked for
-// (requests.h). All errors are printed here; what is returned says how it ended. Context: main loop.
+// Runs lines of the prompt, the program and single SUBs of it, and then does what they have asked
+// for (requests.h). All errors are printed here; what is returned says how it ended. Context: main
+// loop.
 #ifndef BASIC_RUNNER_H
 #define BASIC_RUNNER_H
 

@@ -1,5 +1,5 @@
-// Variables and what describes them. A string's bytes are its length and its text, in the size it was
-// declared with. Context: main loop.
+// Variables and what describes them. A string's bytes are its length and its text, in the size it
+// was declared with. Context: main loop.
 #include "saved_record.h"
 
 #include <string.h>
@@ -66,7 +66,7 @@ void saved_record_describe(const symbols_t *symbol, saved_record_t *record, cons
     *values = place;
 }
 
-// ---- Back ----------------------------------------------------------------------------------------
+// ---- Back ---------------------------------------------------------------------------------------
 
 static void declare(symbols_t *symbol, const saved_record_t *record) {
     value_t bounds[VARIABLES_DIMENSIONS_MAX];

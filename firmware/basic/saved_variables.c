@@ -1,5 +1,5 @@
-// The file: for each variable a record and its bytes, then a record of zeros with the checksum of all
-// before it. Context: main loop.
+// The file: for each variable a record and its bytes, then a record of zeros with the checksum of
+// all before it. Context: main loop.
 #include "saved_variables.h"
 
 #include <string.h>
@@ -98,7 +98,7 @@ static void with_files(void (*work)(void)) {
     }
 }
 
-// ---- Saving --------------------------------------------------------------------------------------
+// ---- Saving -------------------------------------------------------------------------------------
 
 static void write(const void *bytes, size_t size) {
     saving.crc = crc_add(saving.crc, bytes, size);
@@ -168,7 +168,7 @@ void saved_variables_save(const value_t *handles, unsigned count) {
     with_files(save);
 }
 
-// ---- Restoring -----------------------------------------------------------------------------------
+// ---- Restoring ----------------------------------------------------------------------------------
 
 static void restore(void) {
     saved_record_t record;

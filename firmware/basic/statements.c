@@ -196,7 +196,8 @@ static bool exists(const lexer_token_t *name) {
     return symbol != NULL && symbol->value.type != VALUE_NONE;
 }
 
-// True if the line can only be meant as an expression: it opens with a value, or a name that exists.
+// True if the line can only be meant as an expression: it opens with a value, or a name that
+// exists.
 static bool is_expression(void) {
     const lexer_token_t *token = lexer_now();
     if (token->kind != LEXER_NAME) {

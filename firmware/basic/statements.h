@@ -30,7 +30,8 @@ bool statements_option_kept(void);
 void statements_abandon_routine(void);
 
 // statements_flow.c, statements_routine.c, statements_data.c, statements_io.c,
-// statements_channels.c, statements_files.c, statements_system.c, statements_events.c, statements_machine.c
+// statements_channels.c, statements_files.c, statements_system.c, statements_events.c,
+// statements_machine.c
 #define STATEMENTS_DECLARE(name) void statements_##name(void);
 STATEMENTS_DECLARE(if)
 STATEMENTS_DECLARE(elseif)

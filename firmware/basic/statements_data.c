@@ -1,4 +1,5 @@
-// DIM, REDIM, ERASE, CONST, INC, CAT, DATA, READ, RESTORE and REM. Context: main loop, while compiling.
+// DIM, REDIM, ERASE, CONST, INC, CAT, DATA, READ, RESTORE and REM. Context: main loop, while
+// compiling.
 #include <string.h>
 
 #include "compiler.h"
@@ -50,7 +51,8 @@ static void emit_data(const char *text, size_t length) {
     emit_text(text, length);
 }
 
-// Items on several lines that are one: a DATA for each line, without the joints. An item cannot be broken.
+// Items on several lines that are one: a DATA for each line, without the joints. An item cannot be
+// broken.
 static void emit_joined_data(const char *text, const char *end) {
     const char *start = text;
     for (const char *p = text; p < end; p++) {

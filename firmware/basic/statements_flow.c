@@ -1,5 +1,5 @@
-// IF, FOR, DO, SELECT CASE, GOTO and their kin. Blocks are matched while compiling, so at run time they
-// are nothing but jumps. Context: main loop, while compiling.
+// IF, FOR, DO, SELECT CASE, GOTO and their kin. Blocks are matched while compiling, so at run time
+// they are nothing but jumps. Context: main loop, while compiling.
 #include "blocks.h"
 #include "compiler.h"
 #include "emit.h"
@@ -11,7 +11,7 @@
 #include "statements.h"
 #include "words.h"
 
-// ---- IF ------------------------------------------------------------------------------------------
+// ---- IF -----------------------------------------------------------------------------------------
 
 // What THEN or ELSE leads to in a single-line IF: a line number, or one statement.
 static void compile_branch(void) {
@@ -100,7 +100,7 @@ void statements_endif(void) {
     blocks_close();
 }
 
-// ---- FOR -----------------------------------------------------------------------------------------
+// ---- FOR ----------------------------------------------------------------------------------------
 
 void statements_for(void) {
     if (lexer_now()->kind != LEXER_NAME ||
@@ -154,7 +154,7 @@ void statements_next(void) {
     }
 }
 
-// ---- DO ------------------------------------------------------------------------------------------
+// ---- DO -----------------------------------------------------------------------------------------
 
 // [WHILE|UNTIL condition]: jumps to `chain` when the loop is over. False if there is no condition.
 static bool compile_condition(uint32_t *chain) {
@@ -199,7 +199,7 @@ void statements_wend(void) {
     statements_loop();
 }
 
-// ---- EXIT, CONTINUE ------------------------------------------------------------------------------
+// ---- EXIT, CONTINUE -----------------------------------------------------------------------------
 
 static blocks_t *loop_at_hand(void) {
     if (lexer_take_word("FOR")) {
@@ -235,7 +235,7 @@ void statements_continue(void) {
     emit_jump(OP_JUMP, &loop_at_hand()->next_case);
 }
 
-// ---- SELECT CASE ---------------------------------------------------------------------------------
+// ---- SELECT CASE --------------------------------------------------------------------------------
 
 void statements_select(void) {
     lexer_expect_word("CASE");
@@ -324,7 +324,7 @@ static void compile_end_select(void) {
     blocks_close();
 }
 
-// ---- Jumps ---------------------------------------------------------------------------------------
+// ---- Jumps --------------------------------------------------------------------------------------
 
 void statements_goto(void) {
     labels_jump(OP_JUMP);
@@ -374,7 +374,7 @@ void statements_on(void) {
     emit_patch(&done);
 }
 
-// ---- END -----------------------------------------------------------------------------------------
+// ---- END ----------------------------------------------------------------------------------------
 
 void statements_end(void) {
     if (lexer_take_word("IF")) {

@@ -1,4 +1,5 @@
-// Statements about the program as a whole: RUN, NEW, LOAD, SAVE. Context: main loop, while compiling.
+// Statements about the program as a whole: RUN, NEW, LOAD, SAVE. Context: main loop, while
+// compiling.
 #include "actions.h"
 #include "compiler.h"
 #include "emit.h"

@@ -11,7 +11,8 @@
 
 #define VARIABLES_MAX 32u
 
-// A variable of the program by its handle: a local or a STATIC has no name that could be found again.
+// A variable of the program by its handle: a local or a STATIC has no name that could be found
+// again.
 static void compile_variable(void) {
     if (lexer_now()->kind != LEXER_NAME) {
         errors_fail(ERR_SYNTAX);

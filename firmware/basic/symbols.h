@@ -1,5 +1,5 @@
-// Names of the user: variables, SUBs and FUNCTIONs, labels. Looked up while compiling; code names what
-// it found by handle, so nothing is searched while a program runs. Context: main loop.
+// Names of the user: variables, SUBs and FUNCTIONs, labels. Looked up while compiling; code names
+// what it found by handle, so nothing is searched while a program runs. Context: main loop.
 #ifndef BASIC_SYMBOLS_H
 #define BASIC_SYMBOLS_H
 
@@ -52,7 +52,8 @@ typedef struct {
 // Forgets all names.
 void symbols_clear(void);
 
-// New names go to the top of the arena (true: a program's, compiled while nothing runs) or the heap.
+// New names go to the top of the arena (true: a program's, compiled while nothing runs) or the
+// heap.
 void symbols_set_program_mode(bool program);
 
 // Finds a name (without suffix, any case); NULL if there is none.

@@ -28,7 +28,7 @@ static void report(const char *done) {
     console_print(line);
 }
 
-// ---- Files ---------------------------------------------------------------------------------------
+// ---- Files --------------------------------------------------------------------------------------
 
 static err_t take_for_file(const void *bytes, size_t size) {
     transfer.length += size;
@@ -70,7 +70,7 @@ err_t transfer_send_file(const char *path) {
     return error;
 }
 
-// ---- The program ---------------------------------------------------------------------------------
+// ---- The program --------------------------------------------------------------------------------
 
 static err_t take_for_program(const void *bytes, size_t size) {
     if (size > transfer.size - transfer.length) {

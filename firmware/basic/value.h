@@ -15,7 +15,7 @@ typedef enum {
     VALUE_NONE,        // a blank argument, or a variable that does not exist yet
     VALUE_FLOAT_REF,   // data: a double elsewhere
     VALUE_INTEGER_REF, // data: an int64_t elsewhere
-    VALUE_STRING_REF, // data: a length byte and `capacity` bytes of text; what a string variable holds
+    VALUE_STRING_REF, // data: a length byte, `capacity` bytes of text; what a string variable holds
     VALUE_ARRAY,      // data: an array_t
     VALUE_WORD,       // text, length: a bare word written as an argument of a command
 } value_type_t;
@@ -70,7 +70,8 @@ int value_compare_text(const value_t *left, const value_t *right);
 // Makes `value` a STRING of these bytes.
 void value_set_text(value_t *value, const char *text, size_t length);
 
-// What isfinite() and == 0.0 say, without the library's comparisons, of which each takes half a hundred cycles on a board.
+// What isfinite() and == 0.0 say, without the library's comparisons, of which each takes half a
+// hundred cycles on a board.
 static inline uint64_t value_bits(double number) {
     uint64_t bits;
     memcpy(&bits, &number, sizeof bits);
@@ -85,8 +86,8 @@ static inline bool value_is_zero(double number) {
     return value_bits(number) << 1 == 0;
 }
 
-// <0, 0, >0; for numbers that are no NaN. As integers the bits of two doubles stand in the order of the
-// numbers, or against it if both are negative.
+// <0, 0, >0; for numbers that are no NaN. As integers the bits of two doubles stand in the order of
+// the numbers, or against it if both are negative.
 static inline int value_order(double left, double right) {
     int64_t left_bits = (int64_t)value_bits(left);
     int64_t right_bits = (int64_t)value_bits(right);

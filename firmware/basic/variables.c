@@ -30,8 +30,8 @@ const char *variables_name(uint16_t variable) {
     return symbol->name;
 }
 
-// Memory as long-lived as the variable. A local's is taken at the start of a statement's scratch, so
-// that it stays when the temporary strings go.
+// Memory as long-lived as the variable. A local's is taken at the start of a statement's scratch,
+// so that it stays when the temporary strings go.
 static void *allocate(uint16_t variable, size_t size) {
     if (!is_local(variable)) {
         return memory_heap(size);

@@ -66,8 +66,8 @@ void variables_shape(variables_array_t *shape, uint8_t type, unsigned capacity,
 void variables_declare(uint16_t variable, uint8_t type, unsigned capacity, const value_t *bounds,
                        unsigned dimensions);
 
-// Gives `place` an empty string of the hidden variable's own. In text compiled while a program runs,
-// and at the prompt, it lives no longer than the code.
+// Gives `place` an empty string of the hidden variable's own. In text compiled while a program
+// runs, and at the prompt, it lives no longer than the code.
 void variables_make_hidden_string(uint16_t variable, value_t *place);
 
 // The name in capitals for an error message.

@@ -1,5 +1,5 @@
-// Runs code. Calls of SUBs and FUNCTIONs are frames of its own, not of C: however deep a program calls
-// itself, the C stack stays where it is. Context: main loop.
+// Runs code. Calls of SUBs and FUNCTIONs are frames of its own, not of C: however deep a program
+// calls itself, the C stack stays where it is. Context: main loop.
 #ifndef BASIC_VM_H
 #define BASIC_VM_H
 
@@ -68,8 +68,8 @@ extern vm_t vm;
 // Forgets calls, options and ON ERROR, as at RUN.
 void vm_reset(void);
 
-// Runs `code` until it ends. ERR_OK, or the error, which err_message() tells; vm.statement is where.
-// `broken` becomes true if Ctrl-C ended it.
+// Runs `code` until it ends. ERR_OK, or the error, which err_message() tells; vm.statement is
+// where. `broken` becomes true if Ctrl-C ended it.
 err_t vm_run(const uint8_t *code, bool *broken);
 
 // Source line of the statement at hand; 0: typed at the prompt.

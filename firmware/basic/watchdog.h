@@ -1,5 +1,5 @@
-// WATCHDOG: restarts the board if a program does not say in time that it is well. It does not replace
-// the board's own, which restarts it when the firmware hangs. Context: main loop.
+// WATCHDOG: restarts the board if a program does not say in time that it is well. It does not
+// replace the board's own, which restarts it when the firmware hangs. Context: main loop.
 #ifndef BASIC_WATCHDOG_H
 #define BASIC_WATCHDOG_H
 

@@ -40,7 +40,7 @@ static struct {
     unsigned failures; // one after the other
 } transfer;
 
-// ---- The line ------------------------------------------------------------------------------------
+// ---- The line -----------------------------------------------------------------------------------
 
 // The next byte, or -1 if none comes in time.
 static int take(uint64_t timeout_us) {
@@ -123,7 +123,7 @@ static uint8_t checksum(const uint8_t *bytes, size_t size) {
     return (uint8_t)sum;
 }
 
-// ---- Receiving -----------------------------------------------------------------------------------
+// ---- Receiving ----------------------------------------------------------------------------------
 
 // Asks until something comes; the first byte, or -1.
 static int take_first(void) {
@@ -244,7 +244,7 @@ err_t xmodem_receive(xmodem_sink_t sink, uint8_t *buffer) {
     return error;
 }
 
-// ---- Sending -------------------------------------------------------------------------------------
+// ---- Sending ------------------------------------------------------------------------------------
 
 // Waits for a receiver. ERR_OK: transfer.crc is what it wants.
 static err_t wait_for_receiver(void) {

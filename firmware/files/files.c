@@ -44,8 +44,8 @@ static lfs_ssize_t do_read(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_read(lfs, call->file, call->bytes, call->size);
 }
 
-// A full disk is found before a further block is begun, so all that came until then is in order. Marked as
-// faulty the file would be left as it was when it was opened.
+// A full disk is found before a further block is begun, so all that came until then is in order.
+// Marked as faulty the file would be left as it was when it was opened.
 static lfs_ssize_t do_write(lfs_t *lfs, const files_volume_call_t *call) {
     lfs_ssize_t result = lfs_file_write(lfs, call->file, call->source, call->size);
     if (result == LFS_ERR_NOSPC) {
@@ -58,7 +58,7 @@ static lfs_ssize_t do_seek(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_file_seek(lfs, call->file, (lfs_soff_t)call->size, LFS_SEEK_SET);
 }
 
-// ---- Start ---------------------------------------------------------------------------------------
+// ---- Start --------------------------------------------------------------------------------------
 
 err_t files_start(void) {
     memset(&files, 0, sizeof files);
@@ -79,7 +79,7 @@ err_t files_format(void) {
     return error;
 }
 
-// ---- Opening -------------------------------------------------------------------------------------
+// ---- Opening ------------------------------------------------------------------------------------
 
 static bool is_same(const lfs_file_t *a, const lfs_file_t *b) {
     bool pair = (a->m.pair[0] == b->m.pair[0] && a->m.pair[1] == b->m.pair[1]) ||
@@ -167,7 +167,7 @@ err_t files_open(const char *path, files_mode_t mode, int *number) {
                           : err_raise(ERR_FILES_TOO_MANY, NULL);
 }
 
-// ---- Reading and writing -------------------------------------------------------------------------
+// ---- Reading and writing ------------------------------------------------------------------------
 
 // The handle, if it is open and good for what is wanted.
 static handle_t *use(int number, bool writes, err_t *error) {
@@ -186,8 +186,8 @@ static bool has_unwritten(const handle_t *handle) {
     return (handle->file.flags & LFS_F_WRITING) != 0 && (handle->file.flags & LFS_F_INLINE) == 0;
 }
 
-// True if littlefs would take these bytes without touching the flash: a small file lives in its buffer,
-// a larger one writes it out when it is full.
+// True if littlefs would take these bytes without touching the flash: a small file lives in its
+// buffer, a larger one writes it out when it is full.
 static bool fits_buffer(const handle_t *handle, size_t size) {
     const lfs_file_t *file = &handle->file;
     if (file->flags & LFS_F_INLINE) {
@@ -254,7 +254,7 @@ uint32_t files_position(int number) {
     return files.handles[number].file.pos;
 }
 
-// ---- Closing -------------------------------------------------------------------------------------
+// ---- Closing ------------------------------------------------------------------------------------
 
 static err_t close_now(handle_t *handle) {
     bool writes = handle->mode != FILES_READ;

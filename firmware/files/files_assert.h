@@ -1,5 +1,5 @@
-// Taken in by littlefs itself (cmake/littlefs.cmake): what becomes of its assertions. Only a damaged image
-// can break one. Context: main loop.
+// Taken in by littlefs itself (cmake/littlefs.cmake): what becomes of its assertions. Only a
+// damaged image can break one. Context: main loop.
 #ifndef FILES_ASSERT_H
 #define FILES_ASSERT_H
 

@@ -62,7 +62,7 @@ err_t files_remove_folder(const char *path) {
     return error != ERR_OK ? error : files_volume_write(do_remove, &call, NULL);
 }
 
-// ---- Lists ---------------------------------------------------------------------------------------
+// ---- Lists --------------------------------------------------------------------------------------
 
 static void end_list(void) {
     if (list.open && list.generation == files_volume_generation()) {

@@ -31,7 +31,7 @@ void files_names_clean_up(void) {
     }
 }
 
-// ---- Whole files ---------------------------------------------------------------------------------
+// ---- Whole files --------------------------------------------------------------------------------
 
 // A file can be here, or is: its folder is there and it is not in use.
 static err_t check_place(const files_path_t *place) {
@@ -93,7 +93,7 @@ err_t files_replace(const char *path, const void *bytes, size_t size) {
     return files_commit_replacement(number, path);
 }
 
-// ---- Names -----------------------------------------------------------------------------------------
+// ---- Names --------------------------------------------------------------------------------------
 
 err_t files_remove(const char *path) {
     files_path_t place;

@@ -1,4 +1,5 @@
-// What the files' names and their handles need of each other. Inside files/ only. Context: main loop.
+// What the files' names and their handles need of each other. Inside files/ only. Context: main
+// loop.
 #ifndef FILES_NAMES_H
 #define FILES_NAMES_H
 

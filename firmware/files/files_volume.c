@@ -9,8 +9,8 @@
 
 #define LOOKAHEAD_BYTES 32
 #define WEAR_CYCLES 500
-// Reads of the flash that one call may take. The longest on a full volume needs some ten thousand; in a
-// damaged one the way can be a circle.
+// Reads of the flash that one call may take. The longest on a full volume needs some ten thousand;
+// in a damaged one the way can be a circle.
 #define READS_MAX 400000u
 
 static_assert(FILES_VOLUME_BLOCKS == 8 * LOOKAHEAD_BYTES, "one look finds all free blocks");
@@ -28,7 +28,7 @@ static struct {
     uint32_t lookahead[LOOKAHEAD_BYTES / 4];
 } volume;
 
-// ---- The flash -----------------------------------------------------------------------------------
+// ---- The flash ----------------------------------------------------------------------------------
 
 static uint32_t place_of(lfs_block_t block, lfs_off_t offset) {
     return FILES_VOLUME_START + block * HAL_STORAGE_SECTOR + offset;
@@ -94,7 +94,7 @@ static const struct lfs_config config = {
     .lookahead_buffer = volume.lookahead,
 };
 
-// ---- Calls ---------------------------------------------------------------------------------------
+// ---- Calls --------------------------------------------------------------------------------------
 
 static err_t error_of(lfs_ssize_t error, const files_volume_call_t *call) {
     static const struct {
@@ -141,8 +141,9 @@ static lfs_ssize_t mount(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_mount(lfs, &config);
 }
 
-// Completes what a power cut has left half done. littlefs would do so at the next write; but until then,
-// with a move to another folder under way, it does not find the file behind the one that was moved.
+// Completes what a power cut has left half done. littlefs would do so at the next write; but until
+// then, with a move to another folder under way, it does not find the file behind the one that was
+// moved.
 static lfs_ssize_t make_consistent(lfs_t *lfs, const files_volume_call_t *call) {
     (void)call;
     return lfs_fs_mkconsistent(lfs);

@@ -1,5 +1,5 @@
-// The part of the flash that holds the file system, and calls of littlefs from which a damaged image cannot
-// keep us. Inside files/ only. Context: main loop.
+// The part of the flash that holds the file system, and calls of littlefs from which a damaged
+// image cannot keep us. Inside files/ only. Context: main loop.
 #ifndef FILES_VOLUME_H
 #define FILES_VOLUME_H
 

@@ -15,7 +15,7 @@ typedef enum { HAL_EDGE_RISING = 1, HAL_EDGE_FALLING = 2, HAL_EDGE_BOTH = 3 } ha
 // Cycles a second of the clock that PWM slices divide.
 uint32_t hal_clock_hz(void);
 
-// ---- Analog inputs -------------------------------------------------------------------------------
+// ---- Analog inputs ------------------------------------------------------------------------------
 
 #define HAL_ANALOG_FIRST_GPIO 26u // this pin is channel 0
 #define HAL_ANALOG_LAST_GPIO 28u
@@ -28,7 +28,7 @@ void hal_pin_analog(unsigned gpio);
 // One conversion, 2 us.
 uint32_t hal_analog_read(unsigned channel);
 
-// ---- PWM -----------------------------------------------------------------------------------------
+// ---- PWM ----------------------------------------------------------------------------------------
 // Each slice has one counter and two outputs, A and B. Even pins are A, odd ones B; the slice is
 // that of HAL_PWM_SLICE.
 
@@ -55,7 +55,7 @@ void hal_pwm_set(unsigned slice, const hal_pwm_t *pwm);
 void hal_pwm_start(uint32_t slices, const uint16_t counts[HAL_PWM_SLICES]);
 void hal_pwm_stop(unsigned slice);
 
-// ---- Counters ------------------------------------------------------------------------------------
+// ---- Counters -----------------------------------------------------------------------------------
 // They follow inputs of several MHz in hardware: no interrupt, no load. The pin must be an input.
 
 #define HAL_COUNTERS 4u
@@ -74,7 +74,7 @@ double hal_period_read(unsigned counter);
 
 void hal_counter_stop(unsigned counter); // either kind
 
-// ---- Changed pins --------------------------------------------------------------------------------
+// ---- Changed pins -------------------------------------------------------------------------------
 
 // From now on such edges of the pin are noticed, and end hal_idle(). The pin must be an input.
 void hal_pin_watch(unsigned gpio, hal_edge_t edges);
@@ -84,7 +84,7 @@ void hal_pin_unwatch(unsigned gpio);
 // board with at most one interrupt between two calls.
 uint32_t hal_pins_changed(void);
 
-// ---- The alarm, short waits ----------------------------------------------------------------------
+// ---- The alarm, short waits ---------------------------------------------------------------------
 
 typedef void (*hal_alarm_t)(void);
 

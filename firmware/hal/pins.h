@@ -11,8 +11,9 @@
 #define PINS_COUNT 30   // GP0..GP29
 #define PINS_NONE 0xFFu // no pin assigned
 
-// True for a GPIO a user may have: on the header, or GP25 (the board's LED; on a Pico W the chip select of
-// the radio, which stays without power as GP23, its switch, cannot be had: no harm, but no light either).
+// True for a GPIO a user may have: on the header, or GP25 (the board's LED; on a Pico W the chip
+// select of the radio, which stays without power as GP23, its switch, cannot be had: no harm, but
+// no light either).
 bool pins_is_user(unsigned gpio);
 
 // Number on the 40-pin header, 0 if it is not there (GP23..25, 29).
@@ -29,7 +30,8 @@ const char *pins_why_not_board_number(unsigned board_number);
 const char *pins_name(unsigned gpio);
 
 // Reserves the pin for `owner` (a constant text such as "STEPPER X step").
-// Errors: not a user pin, or in use - the message names who has it. Fails without changing anything.
+// Errors: not a user pin, or in use - the message names who has it. Fails without changing
+// anything.
 err_t pins_claim(unsigned gpio, const char *owner);
 
 // Who has it; NULL: nobody.
