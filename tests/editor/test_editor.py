@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
 from screen_terminal import DRAWN, ScreenTerminal
 
@@ -16,13 +14,6 @@ LEFT_EDITOR = b"\x1b[H\r> "
 PROGRAM = "".join(f"PRINT {n} ' line\n" for n in range(1, 61))
 MACHINE = "STEPPER INIT:STEPPER AXIS X,GP2,GP3,,,80,6000,500:STEPPER POSITION HOME:STEPPER RUN\r"
 MOVE = "STEPPER GC G1 X200000 F600\r"
-
-
-@pytest.fixture
-def terminal() -> Iterator[ScreenTerminal]:
-    at = ScreenTerminal()
-    yield at
-    at.close()
 
 
 @pytest.fixture

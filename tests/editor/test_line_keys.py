@@ -3,20 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 
 import pytest
 from screen_terminal import ScreenTerminal
 
 LEFT, HOME, WORD_LEFT, WORD_RIGHT = "\x1b[D", "\x1b[H", "\x1b[1;5D", "\x1b[1;5C"
 PROGRAM = "SUB zdrill(n)\nPRINT n\nEND SUB\nFUNCTION depth()\ndepth = 3\nEND FUNCTION\n"
-
-
-@pytest.fixture
-def terminal() -> Iterator[ScreenTerminal]:
-    at = ScreenTerminal()
-    yield at
-    at.close()
 
 
 def press(at: ScreenTerminal, *keys: str) -> None:

@@ -2,20 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pytest
-from screen_terminal import ScreenTerminal
 
 LINES = 10_000
 ENDS = ["\r", "\n", "\r\n"]
-
-
-@pytest.fixture
-def terminal() -> Iterator[ScreenTerminal]:
-    at = ScreenTerminal()
-    yield at
-    at.close()
 
 
 @pytest.mark.parametrize("end", ENDS)

@@ -125,6 +125,16 @@ const char *board_session(const char *text) {
     return board_shown();
 }
 
+const char *board_answer(const char *line) {
+    static char text[2000];
+    char typed[900];
+    snprintf(typed, sizeof typed, "%s\r", line);
+    const char *shown = strstr(board_session(typed), "> ");
+    snprintf(text, sizeof text, "%s", shown + strlen("> ") + strlen(line) + strlen("\r\n"));
+    *strrchr(text, '>') = '\0';
+    return text;
+}
+
 // ---- The board -----------------------------------------------------------------------------------
 
 // When somebody types again; UINT64_MAX: never.

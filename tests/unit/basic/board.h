@@ -32,6 +32,9 @@ const char *board_shown(void);
 // Runs the prompt on `text` until all of it is taken; returns what was shown, the last prompt included.
 const char *board_session(const char *text);
 
+// What one line at the prompt prints, without its echo and the prompts. Valid until the next call.
+const char *board_answer(const char *line);
+
 typedef struct {
     uint64_t time_us;
     uint64_t blocked_until_us;   // the terminal takes no output before

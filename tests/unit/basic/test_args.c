@@ -105,23 +105,9 @@ void setUp(void) {
 }
 void tearDown(void) {}
 
-// The output of one line at the prompt, without echo and prompts.
-static const char *answer(const char *line) {
-    static char text[2000];
-    char typed[600];
-    snprintf(typed, sizeof typed, "%s\r", line);
-    const char *shown = board_session(typed);
-    const char *start =
-        strstr(shown, "> ") + 2 + strlen(line) + 2; // behind prompt, echo and line end
-    snprintf(text, sizeof text, "%s", start);
-    char *end = strrchr(text, '>');
-    *end = '\0';
-    return text;
-}
-
 static void accept(const char *line) {
     runs = 0;
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("", answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("", board_answer(line), line);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(1, runs, line);
 }
 
@@ -129,7 +115,7 @@ static void reject(const char *line, const char *error) {
     char expected[300];
     snprintf(expected, sizeof expected, "Error : %s\r\n", error);
     runs = 0;
-    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, board_answer(line), line);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, runs, line);
 }
 
@@ -190,15 +176,15 @@ static void test_choices(void) {
     reject("DRIVE AXIS Q,GP1", "axis: Q is invalid (valid is X, Y, Z, A)");
     accept("DRIVE AXIS \"z\",GP1");
     TEST_ASSERT_EQUAL_INT64(2, got[0].integer);
-    TEST_ASSERT_EQUAL_STRING("", answer("w$=\"a\""));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("w$=\"a\""));
     accept("DRIVE AXIS w$,GP1");
     TEST_ASSERT_EQUAL_INT64(3, got[0].integer);
-    TEST_ASSERT_EQUAL_STRING("", answer("x$=\"Y\""));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("x$=\"Y\""));
     accept("DRIVE AXIS X,GP1"); // a choice wins over a variable of that name
     TEST_ASSERT_EQUAL_INT64(0, got[0].integer);
     accept("DRIVE CHIP 2209");
     TEST_ASSERT_EQUAL_INT64(1, got[0].integer);
-    TEST_ASSERT_EQUAL_STRING("", answer("c=2208"));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("c=2208"));
     accept("DRIVE CHIP c");
     TEST_ASSERT_EQUAL_INT64(0, got[0].integer);
     reject("DRIVE CHIP 2130", "chip: 2130 is invalid (valid is 2208, 2209)");
@@ -221,7 +207,7 @@ static void test_numbers_or_words(void) {
     check_way("drive way -, 7", 1, "-", 1);
     TEST_ASSERT_TRUE(got[1].number == 7);
     check_way("DRIVE WAY home", 2, "HOME", 2);
-    TEST_ASSERT_EQUAL_STRING("", answer("d$=\"-\":home=7"));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("d$=\"-\":home=7"));
     check_way("DRIVE WAY d$", 1, "-", 1);
     check_way("DRIVE WAY home*2", 14, "", 0); // alone it is the word
     check_way("IF 1 THEN DRIVE WAY - ELSE MOTOR 1", 1, "-", 1);
@@ -230,7 +216,7 @@ static void test_numbers_or_words(void) {
     reject("DRIVE WAY", "Missing way");
     reject("DRIVE WAY +,+", "Invalid syntax");
     reject("DRIVE WAY --", "Invalid syntax");
-    TEST_ASSERT_NOT_NULL(strstr(answer("HELP DRIVE WAY"), "-100 to 100, +, -, HOME"));
+    TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP DRIVE WAY"), "-100 to 100, +, -, HOME"));
 }
 
 static void test_pins(void) {
@@ -240,7 +226,7 @@ static void test_pins(void) {
     TEST_ASSERT_EQUAL_INT64(16, got[1].integer);
     accept("DRIVE AXIS X,8+1");
     TEST_ASSERT_EQUAL_INT64(9, got[1].integer);
-    TEST_ASSERT_EQUAL_STRING("", answer("p$=\"GP7\""));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("p$=\"GP7\""));
     accept("DRIVE AXIS X,p$");
     TEST_ASSERT_EQUAL_INT64(7, got[1].integer);
     accept("DRIVE AXIS X,0"); // a pin that must be given: GPIO 0
@@ -280,7 +266,7 @@ static void test_groups(void) {
     accept("DRIVE GCODE \"\"");
     TEST_ASSERT_EQUAL_size_t(1, got_count);
     reject("DRIVE GCODE G1, X", "Missing value");
-    TEST_ASSERT_EQUAL_STRING("", answer("g$=\"G0\""));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("g$=\"G0\""));
     accept("DRIVE GCODE g$, X, 1");
     TEST_ASSERT_EQUAL_STRING("G0", texts[0]);
     reject("DRIVE GCODE G1,X,1,X,2,X,3,X,4,X,5,X,6,X,7,X,8,X,9,X,1,X,2,X,3", "Too many arguments");
@@ -297,9 +283,9 @@ static void test_names(void) {
 }
 
 static void test_functions(void) {
-    TEST_ASSERT_EQUAL_STRING(" 1.5\r\n", answer("PRINT PEEK(DRIVE Y)"));
-    TEST_ASSERT_EQUAL_STRING("-1\r\n", answer("PRINT PEEK(ACTIVE)"));
-    TEST_ASSERT_EQUAL_STRING("mill!\r\n", answer("PRINT NAME$ + \"!\""));
+    TEST_ASSERT_EQUAL_STRING(" 1.5\r\n", board_answer("PRINT PEEK(DRIVE Y)"));
+    TEST_ASSERT_EQUAL_STRING("-1\r\n", board_answer("PRINT PEEK(ACTIVE)"));
+    TEST_ASSERT_EQUAL_STRING("mill!\r\n", board_answer("PRINT NAME$ + \"!\""));
     reject("PRINT PEEK(DRIVE Q)", "axis: Q is invalid (valid is X, Y, Z, A)");
     reject("PRINT PEEK(SPEED)", "Unknown PEEK subcommand");
     reject("PRINT PEEK(DRIVE)", "Missing axis");
@@ -307,13 +293,13 @@ static void test_functions(void) {
 }
 
 static void test_help(void) {
-    const char *help = answer("HELP DRIVE AXIS");
+    const char *help = board_answer("HELP DRIVE AXIS");
     TEST_ASSERT_NOT_NULL(
         strstr(help, "DRIVE AXIS axis, step_pin [, enable_pin] [, invert] [, steps]\r\n"));
     TEST_ASSERT_NOT_NULL(strstr(
         help, "steps            above 0 to 100000 steps/mm, default 200: steps for one unit"));
-    TEST_ASSERT_NOT_NULL(strstr(answer("HELP"), "DRIVE GCODE"));
-    TEST_ASSERT_NOT_NULL(strstr(answer("HELP drive"), "DRIVE CHIP"));
+    TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP"), "DRIVE GCODE"));
+    TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP drive"), "DRIVE CHIP"));
 }
 
 int main(void) {

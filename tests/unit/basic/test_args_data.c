@@ -54,26 +54,15 @@ void setUp(void) {
 }
 void tearDown(void) {}
 
-// The output of one line at the prompt, without echo and prompts.
-static const char *answer(const char *line) {
-    static char text[2000];
-    char typed[900];
-    snprintf(typed, sizeof typed, "%s\r", line);
-    const char *shown = board_session(typed);
-    snprintf(text, sizeof text, "%s", strstr(shown, "> ") + 2 + strlen(line) + 2);
-    *strrchr(text, '>') = '\0';
-    return text;
-}
-
 static void obey(const char *line) {
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("", answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("", board_answer(line), line);
 }
 
 static void reject(const char *line, const char *error) {
     char expected[300];
     snprintf(expected, sizeof expected, "Error : %s\r\n", error);
     runs = 0;
-    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, board_answer(line), line);
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, runs, line);
 }
 
@@ -126,8 +115,8 @@ static void test_stores(void) {
     obey("DIM a(2), i%(1), s$(1), t$ LENGTH 5");
     obey("FETCH 99, x: FETCH 99, i%(1): FETCH 99, a(): FETCH 3, s$(1): FETCH 99, t$");
     TEST_ASSERT_EQUAL_STRING(" 90 0 90 90 89 88\r\n",
-                             answer("PRINT x; i%(0); i%(1); a(0); a(1); a(2)"));
-    TEST_ASSERT_EQUAL_STRING("ZYX ZYXWV 5\r\n", answer("PRINT s$(1); \" \"; t$; LEN(t$)"));
+                             board_answer("PRINT x; i%(0); i%(1); a(0); a(1); a(2)"));
+    TEST_ASSERT_EQUAL_STRING("ZYX ZYXWV 5\r\n", board_answer("PRINT s$(1); \" \"; t$; LEN(t$)"));
 }
 
 static void test_what_cannot_be_stored_into(void) {

@@ -99,17 +99,8 @@ void setUp(void) {
 void tearDown(void) {}
 
 // What one line at the prompt shows, without its echo.
-static const char *answer(const char *line) {
-    static char text[2000];
-    char typed[300];
-    snprintf(typed, sizeof typed, "%s\r", line);
-    snprintf(text, sizeof text, "%s", strstr(board_session(typed), "> ") + 4 + strlen(line));
-    *strrchr(text, '>') = '\0';
-    return text;
-}
-
 static void accept(const char *line, const char *expected) {
-    TEST_ASSERT_EQUAL_STRING_MESSAGE("", answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("", board_answer(line), line);
     TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, seen, line);
 }
 
@@ -117,7 +108,7 @@ static void reject(const char *line, const char *error) {
     char expected[300];
     snprintf(expected, sizeof expected, "Error : %s\r\n", error);
     seen[0] = '\0';
-    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, answer(line), line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, board_answer(line), line);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", seen, line);
 }
 
@@ -135,7 +126,7 @@ static void test_a_row_without_such_a_word_takes_the_rest(void) {
     accept("DRIVE 1, 500", "drive 1 500");
     accept("DRIVE 1, OFF", "drive off 1 0");
     accept("DRIVE (1 + LEN(\"x,OFF\")), 7", "drive 6 7");
-    TEST_ASSERT_EQUAL_STRING("", answer("speed = 9"));
+    TEST_ASSERT_EQUAL_STRING("", board_answer("speed = 9"));
     accept("DRIVE 1, speed", "drive 1 9");
 }
 
@@ -162,14 +153,14 @@ static void test_assignments(void) {
     reject("LEVEL(GP4) =", "Invalid syntax");
     reject("GROUP(1) = 2", "Missing bits");
     reject("DOOR(GP4) = 1", "door open");
-    TEST_ASSERT_NOT_NULL(strstr(answer("HELP LEVEL"), "LEVEL(pin) = value"));
+    TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP LEVEL"), "LEVEL(pin) = value"));
 }
 
 static void test_bare_pin_numbers(void) {
     accept("SET 4, OFF", "off 2 0"); // pin 4 of the board is GP2
     accept("STEP 4", "drive 4");
     accept("LEVEL(7) = 1", "assign 1 5");
-    TEST_ASSERT_EQUAL_STRING(" 5\r\n", answer("PRINT LEVEL(7)"));
+    TEST_ASSERT_EQUAL_STRING(" 5\r\n", board_answer("PRINT LEVEL(7)"));
     accept("a = 4 : SET a, OFF", "off 2 0");
     accept("SET 4.4, OFF", "off 2 0");
     reject("SET 3, OFF", "Invalid pin 3 (ground)");
