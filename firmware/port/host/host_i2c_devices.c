@@ -26,7 +26,7 @@ static bool memory_acknowledges(unsigned port) {
 static bool memory_take(unsigned port, unsigned index, uint8_t byte) {
     uint16_t *place = &memories[port].place;
     if (index < MEMORY_ADDRESS_BYTES) {
-        *place = (uint16_t)((*place << 8 | byte) % MEMORY_SIZE);
+        *place = (uint16_t)(((unsigned)*place << 8 | byte) % MEMORY_SIZE);
         return true;
     }
     memories[port].bytes[*place] = byte;
