@@ -1,191 +1,18 @@
-// Programs from a grammar. It is data: templates in which {x} stands for a piece that is chosen anew,
-// most of them as the place wants them, some not. Functions come from the language's own table, product
-// commands from theirs, so new ones take part by themselves.
+// Programs from a grammar. Its statements are data, in fuzz_grammar.c: templates in which {x} stands
+// for a piece that is chosen anew, most of them as the place wants them, some not. Functions come
+// from the language's own table, product commands from theirs, so new ones take part by themselves.
 #include "fuzz_program.h"
 
 #include <string.h>
 
 #include "basic/functions.h"
 #include "fuzz_console_lines.h"
+#include "fuzz_grammar.h"
 #include "fuzz_random.h"
 
 #define DEPTH_MAX 4       // of blocks and of expressions
 #define STATEMENTS_MAX 70 // of a program
 #define ROUTINES 3        // of each kind
-
-// {n} number, {i} small integer, {s} text, {c} condition, {v} number variable, {t} text variable,
-// {a} array, {k} channel, {f} file name, {p} pin, {l} label, {h} SUB without parameters,
-// {x} a product command, {B} block of statements, {q} statements without quotes, for a text.
-static const char *const plain[] = {
-    "{v}={n}",
-    "{v}={n}",
-    "{t}={s}",
-    "{v}={c}",
-    "INC {v},{n}",
-    "INC {t},{s}",
-    "CAT {t},{s}",
-    "LET {v}={i}",
-    "PRINT {n};{s},{c}",
-    "? {s};",
-    "PRINT TAB({i});{n}",
-    "IF {c} THEN {v}={n} ELSE {t}={s}",
-    "IF {c} THEN PRINT {s}",
-    "IF {c} THEN GOSUB {l}",
-    "p{r} {v},{t},{i}",
-    "p{r} {n},{s}",
-    "p{r} {a},{t}",
-    "CALL \"p{r}\",{v},{t},{i}",
-    "{v}=f{r}({n},{v})",
-    "{t}=g{r}$({t})",
-    "{v}={n}+f{r}({i},{i})",
-    "EXECUTE \"{q}\"",
-    "EXECUTE {s}",
-    "{v}=EVAL(\"{q}\")",
-    "{t}=EVAL({s})",
-    "GOSUB {l}",
-    "ON {i} GOSUB {l},{l}",
-    "ON {i} GOTO {l},{l}",
-    "READ {v},{t}",
-    "READ {a}",
-    "READ SAVE:READ {v}:READ RESTORE",
-    "RESTORE {l}",
-    "RESTORE",
-    "DIM z{r}({i},{i})",
-    "LOCAL y{r}={n},w{r}$={s}",
-    "STATIC u{r}={n}",
-    "ERASE z{r}",
-    "REDIM PRESERVE {a0}({i})",
-    "REDIM {a0}({i},{i})",
-    "SORT {a}",
-    "MATH SET {n},{a}",
-    "MATH SCALE {a},{n},{a}",
-    "{v}=MATH(SUM {a})",
-    "{v}=BOUND({a},{i})",
-    "CONST k{r}={n}",
-    "ERROR {s}",
-    "ON ERROR SKIP {i}",
-    "ON ERROR IGNORE",
-    "ON ERROR ABORT",
-    "ON ERROR CLEAR",
-    "? MM.ERRNO,MM.ERRMSG$",
-    "{t}=INKEY$",
-    "PAUSE {i}",
-    "PAUSE 0",
-    "TIMER={n}",
-    "{v}=TIMER",
-    "RANDOMIZE {n}",
-    "SETTICK {i},{h},{r}",
-    "SETTICK 5,{h}",
-    "SETTICK 0,0,{r}",
-    "SETTICK PAUSE,{h}",
-    "SETTICK RESUME,{h}",
-    "ON KEY {h}",
-    "ON KEY {i},{h}",
-    "ON KEY 0",
-    "EXIT FOR",
-    "CONTINUE FOR",
-    "EXIT DO",
-    "CONTINUE DO",
-    "EXIT SUB",
-    "OPTION ANGLE DEGREES",
-    "OPTION ANGLE RADIANS",
-    "OPTION BASE {i}",
-    "TRACE ON",
-    "TRACE OFF",
-    "TRACE LIST {i}",
-    "WATCHDOG 1000000000",
-    "WATCHDOG OFF",
-    "DATE$={s}",
-    "TIME$=\"12:{i}:00\"",
-    "MEMORY",
-    "OPEN {f} FOR OUTPUT AS #{k}",
-    "OPEN {f} FOR APPEND AS #{k}",
-    "OPEN {f} FOR INPUT AS #{k}",
-    "OPEN {f} FOR RANDOM AS #{k}",
-    "PRINT #{k},{n},{s}",
-    "PRINT #{k},{s};",
-    "INPUT #{k},{v},{t}",
-    "LINE INPUT #{k},{t}",
-    "{t}=INPUT$({i},#{k})",
-    "? EOF(#{k});LOF(#{k});LOC(#{k})",
-    "SEEK #{k},{n}",
-    "FLUSH #{k}",
-    "CLOSE #{k}",
-    "CLOSE",
-    "KILL {f}",
-    "RENAME {f} AS {f}",
-    "COPY {f} TO {f}",
-    "MKDIR {f}",
-    "RMDIR {f}",
-    "CHDIR {f}",
-    "FILES",
-    "? DIR$({s});DIR$();CWD$",
-    "VAR SAVE {v},{t}",
-    "VAR RESTORE",
-    "VAR CLEAR",
-    "SETPIN {p},DOUT",
-    "SETPIN {p},DIN,PULLUP",
-    "SETPIN {p},AIN",
-    "SETPIN {p},INTH,{h}",
-    "SETPIN {p},OFF",
-    "PIN({p})={i}",
-    "{v}=PIN({p})",
-    "PULSE {p},{i}",
-    "PORT({p},{i})={n}",
-    "PWM {i},{n},{i}",
-    "PWM {i},OFF",
-    "SERVO {i},{n}",
-    "{x}",
-    "{x}",
-    "STEPPER GC G1 X{i} F{n}",
-    "STEPPER GS \"G1 X\"+STR$({n},1,3)+\" F3000\"",
-    "{v}=PEEK(STEPPER X)",
-    "{t}=BIN2STR$(INT16,{n})",
-    "{t}=BIN2STR$(DOUBLE,{n},BIG)",
-    "{v}=STR2BIN(UINT32,{s})",
-    "{v}=MATH(CRC16 {s},{i})",
-    "SETPIN GP16,PWM0A",
-    "PWM 0,{n},{n}",
-    "SETPIN GP26,AIN",
-    "{v}=PIN(GP26)",
-    "SETPIN GP18,FIN",
-    "SETPIN GP18,CIN",
-    "SETPIN {p},PIN,{i}",
-    "SETPIN {p},CIN,{i}",
-    "PWM {i},{n},{n},{n},{i},{i}",
-    "PWM SYNC {i},,{i}",
-    "SETPIN GP5,GP4,COM2",
-    "OPEN \"COM2:9600\" AS #{i}",
-    "OPEN \"COM2:\"+{s} AS #2",
-    "SETPIN GP4,OFF",
-    "OPTION TAB {i}",
-    "OPTION PIN NUMBERS GPIO",
-    "OPTION PIN NUMBERS BOARD",
-    "SAVE {f}",
-    "LOAD {f}",
-    "LIST {f}",
-    "END",
-    "RUN",
-};
-
-static const char *const blocks[] = {
-    "IF {c} THEN\r{B}ENDIF",
-    "IF {c} THEN\r{B}ELSE\r{B}END IF",
-    "IF {c} THEN\r{B}ELSEIF {c} THEN\r{B}ELSE\r{B}ENDIF",
-    "FOR {v}={i} TO {i}\r{B}NEXT",
-    "FOR j{r}=1 TO {r}\r{B}NEXT j{r}",
-    "FOR {v}={n} TO {n} STEP {n}\r{B}NEXT",
-    "FOR m=1 TO 3:FOR o%=3 TO 1 STEP -1\r{B}NEXT o%,m",
-    "DO WHILE {c}\r{B}INC guard%:IF guard%>40 THEN EXIT DO\rLOOP",
-    "DO\r{B}INC guard%\rLOOP UNTIL guard%>40 OR {c}",
-    "WHILE guard%<40\rINC guard%\r{B}WEND",
-    "SELECT CASE {n}\rCASE {i},{i}\r{B}CASE {i} TO {i}\r{B}CASE IS>{i}\r{B}CASE ELSE\r{B}END "
-    "SELECT",
-    "SELECT CASE {s}\rCASE {s}\r{B}CASE {s} TO {s}\r{B}END SELECT",
-    "ON ERROR SKIP 3\r{B}ON ERROR ABORT",
-    "OPEN {f} FOR OUTPUT AS #{k}\r{B}PRINT #{k},{s}\rCLOSE #{k}",
-    "OPEN {f} FOR INPUT AS #{k}\rDO WHILE NOT EOF(#{k})\rLINE INPUT #{k},{t}\rLOOP\rCLOSE #{k}",
-};
 
 static const char *const numbers[] = {"a",  "b",  "x", "i%", "n%", "fa({d})", "ia%({d},{d})",
                                       "px", "pz%"};
@@ -435,13 +262,13 @@ static void add_statement(unsigned depth) {
     bool more = program.statements > 0;
     program.statements -= more;
     if (more && depth > 0 && fuzz_random_percent(35)) {
-        expand(FUZZ_RANDOM_PICK(blocks), depth);
+        expand(fuzz_grammar_block(), depth);
     } else {
-        expand(FUZZ_RANDOM_PICK(plain), 2);
+        expand(fuzz_grammar_statement(), 2);
     }
     if (fuzz_random_percent(5)) {
         ADD(":");
-        expand(FUZZ_RANDOM_PICK(plain), 1);
+        expand(fuzz_grammar_statement(), 1);
     }
 }
 
