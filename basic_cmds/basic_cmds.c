@@ -9,6 +9,7 @@
 #include "basic_cmds/pin_values.h"
 #include "basic_cmds/report.h"
 #include "basic_cmds/setpin.h"
+#include "basic_cmds/spi.h"
 #include "stepper/stepper.h"
 
 #define CTRL_F 6
@@ -200,6 +201,7 @@ const basic_command_t basic_cmds_commands[] = {
     {"SETPIN", ARGS(com_setpin_args), com_setpin,
      "Gives a serial port its pins, for OPEN \"COM1:9600\" AS #1"},
     {"SETPIN", ARGS(i2c_setpin_args), i2c_setpin, "Gives an I2C bus its pins"},
+    {"SETPIN", ARGS(spi_setpin_args), spi_setpin, "Gives an SPI bus its pins"},
     {"I2C OPEN", ARGS(i2c_open_args), i2c_open, "Makes the program the master of a bus"},
     {"I2C WRITE", ARGS(i2c_write_args), i2c_write, "Sends bytes; MM.I2C tells what came of it"},
     {"I2C READ", ARGS(i2c_read_args), i2c_read,
@@ -214,6 +216,14 @@ const basic_command_t basic_cmds_commands[] = {
     {"I2C2 CHECK", ARGS(i2c_check_args), i2c_check_2,
      "Reads a byte of a device: MM.I2C is 0 if there is one"},
     {"I2C2 CLOSE", .run = i2c_close_2, .help = "Ends it; the pins stay the bus's"},
+    {"SPI OPEN", ARGS(spi_open_args), spi_open, "Makes the program the master of a bus"},
+    {"SPI WRITE", ARGS(spi_write_args), spi_write, "Sends words; what comes back is dropped"},
+    {"SPI READ", ARGS(spi_read_args), spi_read, "Receives words"},
+    {"SPI CLOSE", .run = spi_close, .help = "Ends it; the pins stay the bus's"},
+    {"SPI2 OPEN", ARGS(spi_open_args), spi_open_2, "Makes the program the master of a bus"},
+    {"SPI2 WRITE", ARGS(spi_write_args), spi_write_2, "Sends words; what comes back is dropped"},
+    {"SPI2 READ", ARGS(spi_read_args), spi_read_2, "Receives words"},
+    {"SPI2 CLOSE", .run = spi_close_2, .help = "Ends it; the pins stay the bus's"},
     {"OPTION PIN NUMBERS", ARGS(setpin_numbers_args), setpin_numbers,
      "Says what a bare number means where a pin is wanted; kept over power-off"},
     {"OPTION VCC", ARGS(setpin_vcc_args), setpin_vcc, "Sets the reference of analog inputs"},
@@ -237,6 +247,9 @@ const basic_function_t basic_cmds_functions[] = {
      .help = "Temperature of the chip in degrees Celsius"},
     {"MM.I2C", NULL, .evaluate = i2c_result,
      .help = "What came of the last I2C transfer: 0 all well, 1 no acknowledge, 2 timeout"},
+    {"SPI", NULL, ARGS(spi_exchange_args), spi_exchange,
+     "Sends a word and gives the one that came meanwhile"},
+    {"SPI2", NULL, ARGS(spi_exchange_args), spi_exchange_2, "The same on SPI2"},
     {"PORT", NULL, ARGS(pin_values_read_port_args), pin_values_read_port,
      "Levels of several pins at one time as the bits of a number"},
 };

@@ -18,7 +18,7 @@ endif()
 # What the port links.
 set(STEPMITE_SDK_LIBRARIES
     pico_stdlib pico_bootrom
-    hardware_adc hardware_exception hardware_flash hardware_gpio hardware_i2c hardware_irq hardware_pio hardware_pwm hardware_sync hardware_timer hardware_uart
+    hardware_adc hardware_exception hardware_flash hardware_gpio hardware_i2c hardware_irq hardware_pio hardware_pwm hardware_spi hardware_sync hardware_timer hardware_uart
     hardware_watchdog
 )
 

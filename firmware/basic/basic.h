@@ -226,7 +226,8 @@ void basic_notice(const char *format, ...) __attribute__((format(printf, 1, 2)))
 // Rounded, and the nearest if it is beyond 64 bits.
 int64_t basic_data_number(const basic_arg_t *arg, size_t index);
 
-// Writes the number at `index`, below arg->integer, of a BASIC_ARG_STORE; a string ends behind it.
+// Writes the number at `index`, below arg->integer, of a BASIC_ARG_STORE; a string ends behind it
+// and takes the low eight bits.
 void basic_store_number(const basic_arg_t *arg, size_t index, int64_t number);
 
 // A setting of the product that outlives power-off: what was set, or the fallback. The name is that

@@ -1,4 +1,4 @@
-// I2C buses of a program. Context: main loop.
+// I2C and SPI buses of a program. Context: main loop.
 #include "io_bus.h"
 
 #include <string.h>
@@ -25,10 +25,15 @@ typedef struct {
 
 #define I2C_ROLES                                                                                  \
     .block = 2, .roles = 2, .count = 2, .pins = {{"data", 0, false}, {"clock", 1, false}}
+#define SPI_ROLES                                                                                  \
+    .block = 8, .roles = 4, .count = 3,                                                            \
+    .pins = {{"receive", 0, false}, {"transmit", 3, true}, {"clock", 2, true}}
 
 static const row_t rows[IO_BUSES] = {
     [IO_BUS_I2C] = {"I2C", IO_PINS_I2C, 0, I2C_ROLES},
     [IO_BUS_I2C2] = {"I2C2", IO_PINS_I2C, 1, I2C_ROLES},
+    [IO_BUS_SPI] = {"SPI", IO_PINS_SPI, 0, SPI_ROLES},
+    [IO_BUS_SPI2] = {"SPI2", IO_PINS_SPI, 1, SPI_ROLES},
 };
 
 static struct {
@@ -130,6 +135,15 @@ err_t io_bus_open_i2c(io_bus_t bus, uint32_t khz) {
     return err;
 }
 
+err_t io_bus_open_spi(io_bus_t bus, const hal_spi_t *settings) {
+    err_t err = check_closed(bus);
+    if (err == ERR_OK) {
+        hal_spi_open(rows[bus].port, gpio_of(bus, 0), gpio_of(bus, 1), gpio_of(bus, 2), settings);
+        buses[bus].open = true;
+    }
+    return err;
+}
+
 err_t io_bus_check_open(io_bus_t bus) {
     return buses[bus].open ? ERR_OK : err_raise(ERR_BUS_CLOSED, "%s", rows[bus].name);
 }
@@ -138,7 +152,7 @@ err_t io_bus_close(io_bus_t bus) {
     err_t err = io_bus_check_open(bus);
     if (err == ERR_OK) {
         buses[bus].open = false;
-        hal_i2c_close(rows[bus].port);
+        (is_i2c(bus) ? hal_i2c_close : hal_spi_close)(rows[bus].port);
         rest(bus);
     }
     return err;

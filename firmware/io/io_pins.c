@@ -21,7 +21,7 @@ static const char *const owners[IO_PINS_USES] = {
     [IO_PINS_FREQUENCY] = "SETPIN FIN", [IO_PINS_PERIOD] = "SETPIN PIN",
     [IO_PINS_COUNTER] = "SETPIN CIN",   [IO_PINS_INTERRUPT] = "SETPIN INT",
     [IO_PINS_PWM] = "SETPIN PWM",       [IO_PINS_SERIAL] = "SETPIN COM",
-    [IO_PINS_I2C] = "SETPIN I2C",
+    [IO_PINS_I2C] = "SETPIN I2C",       [IO_PINS_SPI] = "SETPIN SPI",
 };
 
 io_pins_use_t io_pins_use(unsigned gpio) {
@@ -59,6 +59,7 @@ static void end_use(unsigned gpio) {
         io_serial_forget(gpio);
         break;
     case IO_PINS_I2C:
+    case IO_PINS_SPI:
         io_bus_forget(gpio);
         break;
     default:

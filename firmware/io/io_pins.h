@@ -20,6 +20,7 @@ typedef enum {
     IO_PINS_PWM,
     IO_PINS_SERIAL,
     IO_PINS_I2C,
+    IO_PINS_SPI,
     IO_PINS_USES
 } io_pins_use_t;
 

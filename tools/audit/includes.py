@@ -52,6 +52,7 @@ ALSO_FACES = {
     "firmware/hal/hal_io.h",
     "firmware/hal/hal_i2c.h",
     "firmware/hal/hal_serial.h",
+    "firmware/hal/hal_spi.h",
     "firmware/io/io_bus.h",
     "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",

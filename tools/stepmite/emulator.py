@@ -177,6 +177,10 @@ class Emulator:
         """Let the other side of a UART send text, at the UART's own speed."""
         self.request("send_uart", index=index, text=text)
 
+    def spi_words(self, index: int) -> list[dict[str, int]]:
+        """Take all words that an SPI has sent: word, and its form as mode, bits and hz."""
+        return list(self.request("spi_words", index=index)["words"])
+
     def uart_output(self, index: int = 0) -> str:
         """Take all bytes that have left a UART so far."""
         return str(self.request("uart_output", index=index)["text"])

@@ -14,6 +14,7 @@ import { I2c } from './i2c.mjs';
 import { installPio } from './pio.mjs';
 import { installReset, RESET } from './reset.mjs';
 import { installSio } from './sio.mjs';
+import { Spi } from './spi.mjs';
 import { createState } from './state.mjs';
 import { createSystem } from './system.mjs';
 import { SysTick } from './systick.mjs';
@@ -80,6 +81,7 @@ export class Chip {
         this.survivors = installReset({ mcu, S, survivors });
         this.uarts = [0, 1].map((index) => new Uart({ mcu, clock, index, onByte: (byte) => listener.onUart(index, byte) }));
         this.i2cs = [0, 1].map((index) => new I2c({ mcu, clock, index }));
+        this.spis = [0, 1].map((index) => new Spi({ mcu, clock, index }));
         this.usb = new UsbHost({ mcu, clock, onData: listener.onSerial, onConnected: listener.onConnected });
         const rebasePio = installPio({ mcu, clock, S });
         mcu.addClockListener((frequency) => this.clockChanged(frequency, rebasePio));

@@ -34,6 +34,7 @@ const operations = {
         board.uartOutput[index] = '';
         return { text };
     },
+    spi_words({ index }) { return { words: board.chip.spis[index].take() }; },
     host_reading({ on }) { board.chip.usb.setReading(on); },
     unplug() { board.chip.usb.unplug(); },
     plug() { board.chip.usb.plug(); },

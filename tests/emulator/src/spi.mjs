@@ -1,0 +1,54 @@
+// SPI0 and SPI1 with the time a word takes on the wire, each with a loopback plug from transmit to receive. What is sent
+// is kept with the form it had (rp2040js sends at once, and has no words of its own for the modes).
+// Source: RP2040 data sheet, 4.4 (ARM PL022).
+
+const RESETS = 0x4000c, RESET_BIT = [16, 17];
+const FUNCTION_SPI = 1, PINS_OF_PORT = 8;
+const ROLES = [0, 2, 3]; // receive, clock, transmit: the pin's number modulo 4
+
+export class Spi {
+    // Completes the transfers of rp2040js's `mcu.spi[index]`.
+    constructor({ mcu, clock, index }) {
+        Object.assign(this, { mcu, index, sent: [], word: 0 });
+        const stock = this.stock = mcu.spi[index];
+        this.alarm = clock.createAlarm(() => this.arrived());
+        stock.onTransmit = (word) => {
+            this.word = word;
+            this.sent.push({ word, ...this.form() });
+            this.alarm.schedule(stock.dataBits * 1e9 / stock.clockFrequency);
+        };
+        this.watchReset();
+    }
+
+    form() {
+        const { control0, dataBits, clockFrequency } = this.stock;
+        return { bits: dataBits, mode: (control0 >> 6 & 1) << 1 | control0 >> 7 & 1, hz: clockFrequency };
+    }
+
+    hasPins() {
+        return ROLES.every((role) => this.mcu.gpio.some((pin, gpio) => pin.functionSelect === FUNCTION_SPI
+            && gpio % 4 === role && (gpio / PINS_OF_PORT & 1) === this.index));
+    }
+
+    arrived() {
+        this.stock.completeTransmit(this.hasPins() ? this.word : 0);
+    }
+
+    // Takes what was sent so far.
+    take() {
+        return this.sent.splice(0);
+    }
+
+    // rp2040js has no reset of its peripherals.
+    watchReset() {
+        const resets = this.mcu.peripherals[RESETS], write = resets.writeUint32.bind(resets), { stock } = this;
+        resets.writeUint32 = (offset, value) => {
+            write(offset, value);
+            if ((resets.reset >> RESET_BIT[this.index] & 1) === 0) return;
+            this.alarm.cancel();
+            stock.txFIFO.reset();
+            stock.rxFIFO.reset();
+            Object.assign(stock, { busy: false, control0: 0, control1: 0, clockDivisor: 0 });
+        };
+    }
+}
