@@ -1,9 +1,13 @@
-// CPU, WATCHDOG and TRACE at run time. Context: main loop.
+// CPU, WATCHDOG, TRACE and LIST PINS at run time. Context: main loop.
+#include <string.h>
+
 #include "actions.h"
 #include "channels.h"
 #include "console.h"
 #include "errors.h"
 #include "hal/hal.h"
+#include "hal/pins.h"
+#include "pager.h"
 #include "trace.h"
 #include "watchdog.h"
 
@@ -59,4 +63,20 @@ void actions_trace_list(value_t *arguments, unsigned count) {
         errors_fail(ERR_NUMBER_OUT_OF_BOUNDS);
     }
     trace_list(lines < TRACE_LINES ? (unsigned)lines : TRACE_LINES);
+}
+
+// Who uses which pin.
+void actions_list_pins(value_t *arguments, unsigned count) {
+    (void)count;
+    pager_start(value_is_true(arguments));
+    bool more = true;
+    for (unsigned gpio = 0; gpio < PINS_COUNT && more; gpio++) {
+        const char *owner = pins_owner(gpio);
+        if (pins_is_user(gpio)) {
+            char text[64];
+            format_text(text, sizeof text, "%-14s %s", pins_name(gpio),
+                        owner != NULL ? owner : "Unused");
+            more = pager_line(text, strlen(text));
+        }
+    }
 }

@@ -59,8 +59,9 @@ const statements_row_t statements_table[] = {
     {"LET", statements_let, "[LET] name = value", "Assigns"},
     {"LINE", statements_line, "LINE INPUT [prompt$,] name$ / LINE INPUT #n, name$",
      "Reads a line from the terminal or a channel"},
-    {"LIST", statements_list, "LIST [ALL] [first[-last] | file$] / LIST COMMANDS|FUNCTIONS",
-     "Shows the program, some of its lines or a file, with ALL without a stop; or all words"},
+    {"LIST", statements_list, "LIST [ALL] [first[-last] | file$ | PINS] / LIST COMMANDS|FUNCTIONS",
+     "Shows the program, some of its lines, a file or who uses which pin, with ALL without a "
+     "stop; or all words"},
     {"LOAD", statements_load, "LOAD file$ [, R]",
      "Makes what a file holds the program; R: runs it"},
     {"LOCAL", statements_local, "LOCAL [type] name ...", "As DIM, for this SUB or FUNCTION only"},

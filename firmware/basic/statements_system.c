@@ -82,6 +82,9 @@ void statements_list(void) {
     if (commands || lexer_take_word("FUNCTIONS")) {
         emit_integer(commands);
         emit_action(ACTIONS_LIST_WORDS, 1);
+    } else if (lexer_take_word("PINS")) {
+        emit_integer(all);
+        emit_action(ACTIONS_LIST_PINS, 1);
     } else if (lexer_at_end()) {
         emit_integer(all);
         emit_action(ACTIONS_LIST, 1);

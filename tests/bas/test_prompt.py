@@ -398,3 +398,13 @@ def test_list_takes_lines_and_words():
     assert "PRINT" in session("LIST COMMANDS\r")
     assert "MID$" in session("LIST FUNCTIONS\r")
     assert "MID$" not in session("LIST COMMANDS\r")
+
+
+def test_list_pins_tells_who_has_each() -> None:
+    set_up = "STEPPER INIT\rSTEPPER AXIS X,GP2,GP3\rSETPIN GP16,DOUT\r"
+    listed = answers(set_up + "LIST ALL PINS\r")[1:]
+    assert listed[0] == "GP0 (pin 1)    Unused"
+    assert listed[2] == "GP2 (pin 4)    STEPPER X step"
+    assert listed[16] == "GP16 (pin 21)  SETPIN DOUT"
+    assert [line.split()[0] for line in listed[22:]] == ["GP22", "GP25", "GP26", "GP27", "GP28"]
+    assert answers("LIST PINS\rq")[-1].startswith("PRESS ANY KEY")
