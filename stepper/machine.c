@@ -7,6 +7,8 @@
 #include "stepper/moves.h"
 #include "stepper/planner.h"
 
+#define ENDING_US 5000u // the governor is at most half of it ahead
+
 machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
 
 void machine_motor_steps(int32_t steps[AXIS_COUNT]) {
@@ -51,7 +53,17 @@ err_t machine_check_initialized(void) {
     return ERR_OK;
 }
 
+// Nothing is queued any more: what the tick still executes, such as the time that drivers need when
+// they are turned on, ends within milliseconds.
+static bool is_ending(void) {
+    return governor_working() && ring_used(&blocks.ring) == 0 && !jog_active();
+}
+
 err_t machine_check_at_rest(void) {
+    uint64_t limit_us = hal_time_us() + ENDING_US;
+    while (is_ending() && hal_time_us() < limit_us) {
+        hal_idle(limit_us);
+    }
     err_t err = machine_check_initialized();
     if (err == ERR_OK && !machine_at_rest()) {
         err = err_raise(ERR_STEPPER_BUSY, NULL);

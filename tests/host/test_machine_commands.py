@@ -210,3 +210,12 @@ def test_axis_warns_of_the_step_rate(axis: str, scale: int, speed: int, warning:
     go = f"STEPPER GC G0 {axis}50:PAUSE 2500:PRINT PEEK(STEPPER {axis}); PEEK(STEPPER ACTIVE)"
     shown = answers(*INIT, line, "STEPPER POSITION HOME", "STEPPER RUN", go)
     assert shown[-1].split() == ["50", "0"]
+
+
+def test_axes_may_follow_run_at_once() -> None:
+    """What RUN and AXIS start themselves, the drivers' time to wake up, refuses nothing behind it."""
+    shown = answers(
+        "STEPPER INIT : STEPPER RUN : STEPPER AXIS X,GP2,GP3,GP4 : STEPPER AXIS Y,GP5,GP6,GP7 "
+        ": STEPPER POSITION X,3 : STEPPER SPINDLE GP8 : PRINT PEEK(STEPPER X)"
+    )
+    assert shown == ["Stepper initialized, buffer 32\nStepper armed\n 3"]
