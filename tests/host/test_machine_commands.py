@@ -213,7 +213,7 @@ def test_axis_warns_of_the_step_rate(axis: str, scale: int, speed: int, warning:
 
 
 def test_axes_may_follow_run_at_once() -> None:
-    """What RUN and AXIS start themselves, the drivers' time to wake up, refuses nothing behind it."""
+    """The time that drivers get to wake up refuses nothing behind RUN and AXIS."""
     shown = answers(
         "STEPPER INIT : STEPPER RUN : STEPPER AXIS X,GP2,GP3,GP4 : STEPPER AXIS Y,GP5,GP6,GP7 "
         ": STEPPER POSITION X,3 : STEPPER SPINDLE GP8 : PRINT PEEK(STEPPER X)"
