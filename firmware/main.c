@@ -9,9 +9,8 @@ static char banner[120];
 static void start_basic(void) {
     size_t arena_size;
     void *arena = hal_memory(&arena_size);
-    format_text(banner, sizeof banner,
-                "StepMite %s on %s\r\n%u bytes free, HELP lists commands\r\n\r\n",
-                hal_firmware_version(), hal_board_name(), (unsigned)arena_size);
+    format_text(banner, sizeof banner, "StepMite %s on %s", hal_firmware_version(),
+                hal_board_name());
     static basic_config_t config = {
         .background = basic_cmds_background,
         .on_break = basic_cmds_break,

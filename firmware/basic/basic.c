@@ -56,6 +56,14 @@ bool basic_wait(uint64_t until_us) {
 
 static void nothing(void) {}
 
+static void show_banner(void) {
+    if (config->banner != NULL) {
+        console_print(config->banner);
+        basic_printf("\n%u bytes for programs and variables, HELP lists commands\n\n",
+                     (unsigned)memory_free());
+    }
+}
+
 void basic_start(const basic_config_t *new_config) {
     config = new_config;
     vm.on_clear = config->on_clear != NULL ? config->on_clear : nothing;
@@ -71,9 +79,7 @@ void basic_start(const basic_config_t *new_config) {
     words_start(config);
     memory_start(config->arena, config->arena_size);
     program_use_text("", 0);
-    if (config->banner != NULL) {
-        console_print(config->banner);
-    }
+    show_banner();
     messages_report(files_start());
     options_start(config);
     messages_report(program_start());

@@ -190,7 +190,7 @@ typedef struct {
     // middle of a statement, of output or of a line being typed. True: it was meant for the product
     // and is no input. May call basic_notice(); must not raise errors. NULL: all are input.
     bool (*on_control)(char c);
-    const char *banner; // printed by basic_start(), lines end with \r\n
+    const char *banner; // first line that basic_start() prints; behind it: what memory there is
     // What OPEN takes besides files (basic_device.h); NULL with a count of 0: files only.
     const struct basic_device *const *devices;
     size_t device_count;

@@ -95,6 +95,7 @@ blocks_t *blocks_abandon(void) {
         emit_patch(&block->exits);
         emit_patch(&block->next_case);
         compiler_spoil(block->opening, error_of(block->kind));
+        emit_commit(); // nothing of this is taken back, and there may be more blocks than patches
     }
     return NULL;
 }

@@ -82,3 +82,9 @@ END SUB
     shown = session(f"AUTOSAVE\r{program.replace(chr(10), chr(13))}{CTRL_Z}RUN\r")
     before, after = re.findall(r"free (\d+) of", shown)
     assert before == after
+
+
+def test_many_blocks_without_an_end_are_told_as_such():
+    program = "PRINT 1\r" + "DO\r" * 90
+    got = answers(f"AUTOSAVE\r{program}{CTRL_Z}RUN\rPRINT 7\r")
+    assert got[-4:] == [" 1", "[2] DO", "Error : Cannot find a matching LOOP", " 7"]
