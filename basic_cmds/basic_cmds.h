@@ -31,8 +31,8 @@ void basic_cmds_error(void);
 // Refuses a restart while motion is active or queued.
 err_t basic_cmds_may_restart(void);
 
-// Ctrl-F is feed hold, Ctrl-R resumes. False while there is nothing they could act on, and for all other
-// characters.
+// Ctrl-F is feed hold, Ctrl-R resumes. False while there is nothing they could act on, and for all
+// other characters.
 bool basic_cmds_control(char c);
 
 #endif

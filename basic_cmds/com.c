@@ -58,7 +58,7 @@ void com_clear(void) {
     memset(ports, 0, sizeof ports);
 }
 
-// ---- What stands behind OPEN ---------------------------------------------------------------------
+// ---- What stands behind OPEN --------------------------------------------------------------------
 
 typedef struct {
     hal_serial_t serial;
@@ -156,7 +156,7 @@ static err_t take_fields(basic_text_t text, request_t *request) {
     return err;
 }
 
-// ---- The device ----------------------------------------------------------------------------------
+// ---- The device ---------------------------------------------------------------------------------
 
 static err_t open(basic_text_t text, basic_device_mode_t mode, int *handle) {
     (void)mode; // a port goes both ways

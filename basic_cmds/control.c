@@ -1,4 +1,5 @@
-// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION, GC, GS, GCODE. Context: main loop.
+// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION, GC, GS, GCODE.
+// Context: main loop.
 #include "basic_cmds/control.h"
 
 #include <ctype.h>

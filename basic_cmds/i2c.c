@@ -75,7 +75,7 @@ err_t i2c_setpin(const basic_arg_t *args, size_t count) {
     return err;
 }
 
-// ---- Transfers -----------------------------------------------------------------------------------
+// ---- Transfers ----------------------------------------------------------------------------------
 
 // Carries a transfer out while the background goes on. Ctrl-C gives it up as the timeout does.
 static void run(unsigned port, const hal_i2c_transfer_t *transfer) {
@@ -185,7 +185,7 @@ static err_t open(unsigned port, const basic_arg_t *args) {
     return err;
 }
 
-// ---- Handlers ------------------------------------------------------------------------------------
+// ---- Handlers -----------------------------------------------------------------------------------
 
 err_t i2c_open(const basic_arg_t *args, size_t count) {
     (void)count;

@@ -1,5 +1,5 @@
-// Handlers of I2C and I2C2: a program as the master of a bus. Inside basic_cmds/ only. Context: main
-// loop.
+// Handlers of I2C and I2C2: a program as the master of a bus. Inside basic_cmds/ only. Context:
+// main loop.
 #ifndef BASIC_CMDS_I2C_H
 #define BASIC_CMDS_I2C_H
 

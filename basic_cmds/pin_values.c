@@ -87,7 +87,7 @@ const basic_arg_spec_t pin_values_servo_args[] = {
     POSITION_ARG("position_b", "B"),
 };
 
-// ---- PIN -----------------------------------------------------------------------------------------
+// ---- PIN ----------------------------------------------------------------------------------------
 
 err_t pin_values_read(const basic_arg_t *args, size_t count, basic_value_t *result) {
     (void)count;
@@ -118,7 +118,7 @@ err_t pin_values_pulse(const basic_arg_t *args, size_t count) {
     return io_pulse((unsigned)args[0].integer, args[1].number);
 }
 
-// ---- PORT ----------------------------------------------------------------------------------------
+// ---- PORT ---------------------------------------------------------------------------------------
 
 typedef struct {
     uint8_t gpio[PINS_COUNT]; // of each bit
@@ -175,7 +175,7 @@ err_t pin_values_write_port(const basic_arg_t *args, size_t count) {
     return io_write_port(port.pins, levels);
 }
 
-// ---- PWM and SERVO -------------------------------------------------------------------------------
+// ---- PWM and SERVO ------------------------------------------------------------------------------
 
 err_t pin_values_pwm(const basic_arg_t *args, size_t count) {
     (void)count;

@@ -76,7 +76,7 @@ const basic_arg_spec_t setpin_vcc_args[] = {
      .help = "voltage that an analog input reads as full scale; RUN sets 3.3"},
 };
 
-// ---- Interrupts ----------------------------------------------------------------------------------
+// ---- Interrupts ---------------------------------------------------------------------------------
 
 // Each is an event of the language; the pin's GPIO + 1, 0: free.
 static uint8_t interrupts[EVENTS_PINS_COUNT];
@@ -113,7 +113,7 @@ void setpin_clear(void) {
     io_reset();
 }
 
-// ---- Handlers ------------------------------------------------------------------------------------
+// ---- Handlers -----------------------------------------------------------------------------------
 
 static unsigned gpio_of(const basic_arg_t *args) {
     return (unsigned)args[0].integer;

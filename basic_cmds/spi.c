@@ -54,7 +54,7 @@ err_t spi_setpin(const basic_arg_t *args, size_t count) {
     return err;
 }
 
-// ---- Transfers -----------------------------------------------------------------------------------
+// ---- Transfers ----------------------------------------------------------------------------------
 
 // Words both ways: `send` NULL sends zeros, `store` NULL drops what comes.
 typedef struct {
@@ -169,7 +169,7 @@ static err_t open(unsigned port, const basic_arg_t *args) {
     return err;
 }
 
-// ---- Handlers ------------------------------------------------------------------------------------
+// ---- Handlers -----------------------------------------------------------------------------------
 
 err_t spi_open(const basic_arg_t *args, size_t count) {
     (void)count;

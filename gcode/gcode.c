@@ -1,5 +1,6 @@
-// Modal state and execution. A line is read whole, checked whole, carried out as at most one move or other
-// entry of the motion queue, and only then does it change the modal state. Context: main loop.
+// Modal state and execution. A line is read whole, checked whole, carried out as at most one move
+// or other entry of the motion queue, and only then does it change the modal state. Context: main
+// loop.
 #include "gcode/gcode.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ static struct {
     bool arc_legacy; // A words of arcs are ignored
 } gcode;
 
-// ---- Carrying out --------------------------------------------------------------------------------
+// ---- Carrying out -------------------------------------------------------------------------------
 
 static void find_move(stepper_move_t *wanted, const line_t *line) {
     *wanted = (stepper_move_t){

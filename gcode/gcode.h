@@ -1,6 +1,7 @@
-// G-code: from a line of text to one entry of the motion queue. The face of gcode/.
-// G0 G1 G2 G3 G4 G17 G18 G19 G61 G61.1 G64 G90 G91 G91.1 G92 M3 M5; words X Y Z A I J K R F P; comments ( ), ;
-// and BASIC's '. Modal: motion, plane, path mode, distance mode and F stay in force. Context: main loop.
+// G-code: from a line of text to one entry of the motion queue. The face of gcode/. G0 G1 G2 G3 G4
+// G17 G18 G19 G61 G61.1 G64 G90 G91 G91.1 G92 M3 M5; words X Y Z A I J K R F P; comments ( ), ; and
+// BASIC's '. Modal: motion, plane, path mode, distance mode and F stay in force. Context: main
+// loop.
 #ifndef GCODE_H
 #define GCODE_H
 
@@ -18,8 +19,8 @@ typedef struct {
 #define GCODE_WORDS_MAX 32
 
 // Carries out a line. An empty line and one of comments only is fine. A refused line has changed
-// nothing, modal state included: the same line may be sent again.
-// Errors: of the text (which word), of the combination of words, and those of stepper_move() and others.
+// nothing, modal state included: the same line may be sent again. Errors: of the text (which word),
+// of the combination of words, and those of stepper_move() and others.
 err_t gcode_line(const char *text, size_t length);
 
 // The same for words that are already apart.

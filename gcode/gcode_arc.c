@@ -17,8 +17,8 @@ static char letter_of(axis_id_t axis) {
     return GCODE_CENTRE_LETTERS[axis];
 }
 
-// Half a circle is the largest arc of a positive R and the smallest of a negative one. If R falls short of
-// it by no more than rounded coordinates may, it is meant.
+// Half a circle is the largest arc of a positive R and the smallest of a negative one. If R falls
+// short of it by no more than rounded coordinates may, it is meant.
 static err_t centre_by_radius(stepper_arc_t *arc, double r) {
     double start[AXIS_COUNT];
     stepper_target(start);

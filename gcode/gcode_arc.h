@@ -4,7 +4,8 @@
 
 #include "gcode/gcode_words.h"
 
-// Fills in the plane, the centre and the direction that the line asks for; the move's target is known.
+// Fills in the plane, the centre and the direction that the line asks for; the move's target is
+// known.
 err_t gcode_arc_find(stepper_arc_t *arc, const line_t *line);
 
 #endif

@@ -1,5 +1,5 @@
-// G-code text to words. Numbers are decimal only: in `Y0X10` the x is the next word, not a hexadecimal
-// prefix, and `1E5` is a 1 and a word E. Context: main loop.
+// G-code text to words. Numbers are decimal only: in `Y0X10` the x is the next word, not a
+// hexadecimal prefix, and `1E5` is a 1 and a word E. Context: main loop.
 #include "gcode/gcode_lexer.h"
 
 #include <ctype.h>

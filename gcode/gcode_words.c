@@ -9,7 +9,7 @@
 #define FEED_MAX 1.0e9
 #define BLEND_MAX_MM 1000.0
 
-// ---- Codes ---------------------------------------------------------------------------------------
+// ---- Codes --------------------------------------------------------------------------------------
 
 static err_t set_action(line_t *line, action_t action) {
     if (line->action != ACTION_NONE) {
@@ -57,7 +57,8 @@ static err_t unsupported(const gcode_word_t *word) {
     return err_raise(ERR_GCODE_UNSUPPORTED, "%c%g", word->letter, word->value);
 }
 
-// Ten times the number of a G or M word, so that G61.1 has one as well; -1 if there is no such code.
+// Ten times the number of a G or M word, so that G61.1 has one as well; -1 if there is no such
+// code.
 static int code_tenths(const gcode_word_t *word) {
     double tenths = floor(word->value * 10.0 + 0.5);
     bool fits = word->value >= 0.0 && word->value < 1000.0;
@@ -116,7 +117,7 @@ static err_t read_m(line_t *line, const gcode_word_t *word) {
     }
 }
 
-// ---- Words with a value --------------------------------------------------------------------------
+// ---- Words with a value -------------------------------------------------------------------------
 
 static err_t twice(char letter) {
     return err_raise(ERR_GCODE_TWICE, "%c", letter);
@@ -192,7 +193,7 @@ static err_t read_word(line_t *line, const gcode_word_t *word) {
     }
 }
 
-// ---- What the words mean together ----------------------------------------------------------------
+// ---- What the words mean together ---------------------------------------------------------------
 
 static err_t p_range(double value, const char *valid, double most) {
     return err_raise(ERR_GCODE_RANGE, "P: %g is invalid (valid is %s%.0f)", value, valid, most);

@@ -1,4 +1,5 @@
-// The words of a line: what each sets and what they mean together. Inside gcode/ only. Context: main loop.
+// The words of a line: what each sets and what they mean together. Inside gcode/ only. Context:
+// main loop.
 #ifndef GCODE_WORDS_H
 #define GCODE_WORDS_H
 

@@ -1,7 +1,9 @@
-// Arcs: what stepper_arc() asks for, in numbers that can be planned and followed. Context: main loop.
+// Arcs: what stepper_arc() asks for, in numbers that can be planned and followed. Context: main
+// loop.
 //
-// Speed and acceleration along an arc share what the axes allow with the acceleration towards its centre:
-// both together form a vector that turns round, so its length stays below the lesser of the plane's axes.
+// Speed and acceleration along an arc share what the axes allow with the acceleration towards its
+// centre: both together form a vector that turns round, so its length stays below the lesser of the
+// plane's axes.
 #include "stepper/arc.h"
 
 #include <float.h>
@@ -24,7 +26,7 @@
 // The governor follows an arc in chords of this time.
 #define CHORD_S 0.001f
 
-// ---- Measures ------------------------------------------------------------------------------------
+// ---- Measures -----------------------------------------------------------------------------------
 
 static double length_of(const double v[2]) {
     return sqrt(v[0] * v[0] + v[1] * v[1]);
@@ -48,7 +50,8 @@ static err_t check_radii(const arc_t *arc, double at_start, double at_end) {
     return ERR_OK;
 }
 
-// Turns from start to end, in the direction of the arc; an arc that ends where it started is a full one.
+// Turns from start to end, in the direction of the arc; an arc that ends where it started is a full
+// one.
 static double find_turns(const arc_t *arc, const stepper_arc_t *wanted) {
     const double chord[2] = {arc->end[0] - arc->start[0], arc->end[1] - arc->start[1]};
     double turns = 0.0;
@@ -80,7 +83,8 @@ err_t arc_measure(arc_t *arc, const stepper_arc_t *wanted, const double from[AXI
     return err;
 }
 
-// A measure of the direction of a vector that grows with its angle, by one for each quarter turn: 0..4.
+// A measure of the direction of a vector that grows with its angle, by one for each quarter turn:
+// 0..4.
 static double direction_of(const double v[2]) {
     double part = v[1] / (fabs(v[0]) + fabs(v[1]));
     if (v[0] < 0.0) {
@@ -113,7 +117,7 @@ bool arc_is_below_a_step(const arc_t *arc) {
            way * axes[arc->plane[1]].config.steps_per_unit < 0.5;
 }
 
-// ---- Limits --------------------------------------------------------------------------------------
+// ---- Limits -------------------------------------------------------------------------------------
 
 // Greatest share that each axis ever has in the direction of the path.
 static void find_shares(float share[AXIS_COUNT], const arc_t *arc, float in_plane,
@@ -171,7 +175,7 @@ void arc_geometry(geometry_t *g, const arc_t *arc, const double delta[AXIS_COUNT
                   (float)geometry_settings.arc_tolerance);
 }
 
-// ---- For the path --------------------------------------------------------------------------------
+// ---- For the path -------------------------------------------------------------------------------
 
 void arc_fill(block_t *block, const arc_t *arc) {
     int exponent;

@@ -1,5 +1,5 @@
-// Arcs: what stepper_arc() asks for, in numbers that can be planned and followed. Inside stepper/ only.
-// Context: main loop, if a function says nothing else.
+// Arcs: what stepper_arc() asks for, in numbers that can be planned and followed. Inside stepper/
+// only. Context: main loop, if a function says nothing else.
 #ifndef STEPPER_ARC_H
 #define STEPPER_ARC_H
 

@@ -1,13 +1,14 @@
-// The places ahead that the speed has to be fit for, nearest first: what the planner keeps, as the S-curve
-// reads it. Inside stepper/ only. Inline, because a curve of short moves has hundreds. Context: governor.
+// The places ahead that the speed has to be fit for, nearest first: what the planner keeps, as the
+// S-curve reads it. Inside stepper/ only. Inline, because a curve of short moves has hundreds.
+// Context: governor.
 #ifndef STEPPER_BOUNDS_H
 #define STEPPER_BOUNDS_H
 
 #include "stepper/planner.h"
 
-// A place ahead that must not be passed faster than `cap`, and the limits between the one before and it:
-// the binding entries behind the front block, one after the other, and at last the end of the queue, where
-// the cap is 0.
+// A place ahead that must not be passed faster than `cap`, and the limits between the one before
+// and it: the binding entries behind the front block, one after the other, and at last the end of
+// the queue, where the cap is 0.
 typedef struct {
     uint32_t way;
     v2_t cap;
@@ -38,8 +39,8 @@ static inline bool bounds_next(bound_t *bound) {
     return true;
 }
 
-// A curve made of short moves has hundreds of bounds. Passes over the next ones if a whole group of them
-// has no cap below `cap` and no limit below `span`. Returns how many.
+// A curve made of short moves has hundreds of bounds. Passes over the next ones if a whole group of
+// them has no cap below `cap` and no limit below `span`. Returns how many.
 static inline uint32_t bounds_skip(bound_t *bound, v2_t cap, span_t span) {
     uint32_t group = bound->index / PLANNER_GROUP;
     if (bound->index % PLANNER_GROUP != 0 || bound->more <= PLANNER_GROUP + 1 ||

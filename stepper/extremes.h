@@ -1,5 +1,5 @@
-// The lesser and the greater of two numbers, neither of them NaN. Unlike fminf() no call, and the same on
-// every machine. Inside stepper/ only. Any context.
+// The lesser and the greater of two numbers, neither of them NaN. Unlike fminf() no call, and the
+// same on every machine. Inside stepper/ only. Any context.
 #ifndef STEPPER_EXTREMES_H
 #define STEPPER_EXTREMES_H
 

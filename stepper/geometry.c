@@ -1,8 +1,9 @@
 // What a new move is like: direction, length, limits, corners. Context: main loop.
 //
 // Corner speed: junction deviation. The corner is thought replaced by an arc that passes at most
-// `deviation` from it; v^2 = a * r on that arc. An arc must also leave each move at its middle at the
-// latest, so on a polygon with many corners v^2 / r of the circle stays within the acceleration too.
+// `deviation` from it; v^2 = a * r on that arc. An arc must also leave each move at its middle at
+// the latest, so on a polygon with many corners v^2 / r of the circle stays within the acceleration
+// too.
 #include "stepper/geometry.h"
 
 #include <float.h>
@@ -13,8 +14,9 @@
 #include "stepper/extremes.h"
 #include "stepper/planner.h"
 
-// |u - u_prev|^2 / 4 = sin^2(phi/2) for unit vectors with the angle phi between them: straight on below the
-// first, back the same way above the last; above the second exact-path mode sees a corner (5 degrees).
+// |u - u_prev|^2 / 4 = sin^2(phi/2) for unit vectors with the angle phi between them: straight on
+// below the first, back the same way above the last; above the second exact-path mode sees a corner
+// (5 degrees).
 #define STRAIGHT_ON 2.5e-10f
 #define TANGENTIAL 1.9e-3f
 #define REVERSAL 0.9999975f
@@ -27,7 +29,7 @@ static float maximum(float a, float b) {
     return a > b ? a : b;
 }
 
-// ---- Limits --------------------------------------------------------------------------------------
+// ---- Limits -------------------------------------------------------------------------------------
 
 void geometry_project_limits(geometry_t *g, const float share[AXIS_COUNT]) {
     const geometry_settings_t *settings = &geometry_settings;
@@ -54,8 +56,8 @@ float geometry_top_speed(const geometry_t *g) {
     return lesser(g->feed * override, g->axes_speed);
 }
 
-// Up to twice the speed, since the feed may be overridden later; but as long as the feed itself does not need
-// more, nine tenths of the acceleration are left along the path: sqrt(1 - 0.436^2).
+// Up to twice the speed, since the feed may be overridden later; but as long as the feed itself
+// does not need more, nine tenths of the acceleration are left along the path: sqrt(1 - 0.436^2).
 #define TURNING_SPARE 0.436f
 
 float geometry_turning_share(float needed, float most) {
@@ -64,7 +66,7 @@ float geometry_turning_share(float needed, float most) {
     return spare > at_least ? spare : at_least;
 }
 
-// ---- Lines ---------------------------------------------------------------------------------------
+// ---- Lines --------------------------------------------------------------------------------------
 
 void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_move_t *move) {
     double linear2 = 0.0;
@@ -87,7 +89,7 @@ void geometry_line(geometry_t *g, const double delta[AXIS_COUNT], const stepper_
     geometry_project_limits(g, share);
 }
 
-// ---- Corners -------------------------------------------------------------------------------------
+// ---- Corners ------------------------------------------------------------------------------------
 
 // Acceleration that the axes together allow in the direction of `change`, whose length is `size`.
 static float acceleration_along(const float change[AXIS_COUNT], float size) {
@@ -128,19 +130,20 @@ float geometry_corner_speed2(const geometry_t *before, const geometry_t *next,
     return lesser(by_deviation, by_length);
 }
 
-// ---- Blends --------------------------------------------------------------------------------------
+// ---- Blends -------------------------------------------------------------------------------------
 //
-// From `reach` before the corner to `reach` behind it the velocity changes evenly from v u to v u', in the time
-// 2 reach / v. The acceleration is v^2 (u' - u) / (2 reach), and the middle of the curve is
-// reach |u' - u| / 4 from the corner.
+// From `reach` before the corner to `reach` behind it the velocity changes evenly from v u to v u',
+// in the time 2 reach / v. The acceleration is v^2 (u' - u) / (2 reach), and the middle of the
+// curve is reach |u' - u| / 4 from the corner.
 
 // Straight lines keep a little between two blends.
 #define BLEND_SHARE 0.4999f
-// Part of the acceleration that may be used to turn, and what needs to be at the speed that is meant: twice
-// that speed is possible then.
+// Part of the acceleration that may be used to turn, and what needs to be at the speed that is
+// meant: twice that speed is possible then.
 #define BLEND_TURNING_MAX 0.75f
 #define BLEND_TURNING 0.109f
-// A corner in which the speed changes by less than the acceleration does in this time is passed as it is.
+// A corner in which the speed changes by less than the acceleration does in this time is passed as
+// it is.
 #define BLEND_TIME_MIN_S 0.001f
 
 uint32_t geometry_fraction(const geometry_t *line, float length) {
@@ -199,7 +202,7 @@ bool geometry_blend(geometry_t *g, const geometry_t *before, const geometry_t *n
     return true;
 }
 
-// ---- S-curves over many short moves --------------------------------------------------------------
+// ---- S-curves over many short moves -------------------------------------------------------------
 
 // A move that is over before the acceleration could be built up and taken back.
 static bool is_short(const geometry_t *g) {
@@ -207,7 +210,8 @@ static bool is_short(const geometry_t *g) {
     return g->length * g->jerk < 2.0f * g->acceleration * top;
 }
 
-// The least acceleration in any direction near that of `g`: in a plane with equal axes the same in all.
+// The least acceleration in any direction near that of `g`: in a plane with equal axes the same in
+// all.
 static float even_acceleration(const geometry_t *g) {
     float acceleration = FLT_MAX;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {

@@ -1,6 +1,6 @@
-// The governor: what comes next, and a few milliseconds of it in advance. Moves are travel.c's business,
-// jogs jog.c's; dwells, pins and drivers are switched here.
-// Context: governor (below every interrupt, above the main loop), if a function says nothing else.
+// The governor: what comes next, and a few milliseconds of it in advance. Moves are travel.c's
+// business, jogs jog.c's; dwells, pins and drivers are switched here. Context: governor (below
+// every interrupt, above the main loop), if a function says nothing else.
 #include "stepper/governor.h"
 
 #include <string.h>
@@ -17,8 +17,8 @@
 #define DWELL_SLICE_TICKS 100u
 // Time the drivers get between being enabled and the first step.
 #define ENABLE_TICKS 5u
-// The governor is called when a segment ends. This is left then: more rides out longer delays of this
-// interrupt, less reacts faster.
+// The governor is called when a segment ends. This is left then: more rides out longer delays of
+// this interrupt, less reacts faster.
 #define SPARE_TICKS 60u
 // No more than this is ever ahead, so that what is asked for shows at the pins within 2 ms.
 #define AHEAD_TICKS 172u
@@ -96,7 +96,7 @@ static void advance_dwell(void) {
     }
 }
 
-// ---- What is next --------------------------------------------------------------------------------
+// ---- What is next -------------------------------------------------------------------------------
 
 static void switch_drivers(bool on) {
     uint32_t mask = governor.pins.enable;
@@ -155,8 +155,8 @@ static uint32_t slice_ticks(void) {
     return ahead + SLICE_TICKS_MIN <= AHEAD_TICKS ? AHEAD_TICKS - ahead : SLICE_TICKS_MIN;
 }
 
-// The tick may be running although there is nothing to execute. A motion is shown to it only when there is
-// enough to go on with: its first segments can be as short as a tick.
+// The tick may be running although there is nothing to execute. A motion is shown to it only when
+// there is enough to go on with: its first segments can be as short as a tick.
 void governor_fill(uint32_t ticks) {
     bool starting = ring_used(&segments.ring) == 0;
     bool more = governor.armed;
@@ -183,7 +183,7 @@ void hal_on_governor(void) {
     governor_fill(SPARE_TICKS);
 }
 
-// ---- For the main loop ---------------------------------------------------------------------------
+// ---- For the main loop --------------------------------------------------------------------------
 
 void governor_reset(const int32_t steps[AXIS_COUNT]) {
     governor_pins_t pins = governor.pins;

@@ -1,4 +1,5 @@
-// The governor: turns blocks into segments, some milliseconds ahead of the tick. Inside stepper/ only.
+// The governor: turns blocks into segments, some milliseconds ahead of the tick. Inside stepper/
+// only.
 #ifndef STEPPER_GOVERNOR_H
 #define STEPPER_GOVERNOR_H
 
@@ -20,8 +21,8 @@ typedef struct {
 void governor_reset(const int32_t steps[AXIS_COUNT]);
 void governor_set_pins(const governor_pins_t *pins);
 
-// From now on blocks are executed and the drivers are on: always, or with `idle_off` only while there
-// is something to do. Follow with hal_governor_request().
+// From now on blocks are executed and the drivers are on: always, or with `idle_off` only while
+// there is something to do. Follow with hal_governor_request().
 void governor_arm(bool idle_off);
 
 // Blocks wait from now on; drivers keep their state. At rest only.
@@ -36,7 +37,8 @@ void governor_stop(void);
 // Brake to a stop and keep all blocks, or go on. Follow with hal_governor_request().
 void governor_hold(bool hold);
 
-// Computes up to `ticks` ahead, more than usual, before the governor is held off for long. Contexts: also governor.
+// Computes up to `ticks` ahead, more than usual, before the governor is held off for long.
+// Contexts: also governor.
 void governor_fill(uint32_t ticks);
 
 // Ends all motion within this call and disarms, see stepper_estop(). Contexts: also governor.
@@ -45,8 +47,8 @@ void governor_emergency_stop(void);
 // Where the motors are now.
 void governor_position(int32_t steps[AXIS_COUNT]);
 
-// The speed at the end of what the tick has been given, units/s, and the way from there to the end of the
-// front block. 0 at rest.
+// The speed at the end of what the tick has been given, units/s, and the way from there to the end
+// of the front block. 0 at rest.
 void governor_whereabouts(float *speed, float *left);
 
 // The following may be read in any context, unlocked.

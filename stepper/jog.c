@@ -1,6 +1,6 @@
-// Jogging. The axis follows the same speed profiles as a block: towards a target far enough away it is a
-// line that ends there; with a target behind, or too near to stop at, the axis brakes first and then
-// turns round. Context: governor, if a function says nothing else.
+// Jogging. The axis follows the same speed profiles as a block: towards a target far enough away it
+// is a line that ends there; with a target behind, or too near to stop at, the axis brakes first
+// and then turns round. Context: governor, if a function says nothing else.
 #include "stepper/jog.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-// Jogging: one axis moved by hand towards a target that may change on the way. Inside stepper/ only.
-// A motion of its own beside the block ring, which is empty meanwhile.
+// Jogging: one axis moved by hand towards a target that may change on the way. Inside stepper/
+// only. A motion of its own beside the block ring, which is empty meanwhile.
 #ifndef STEPPER_JOG_H
 #define STEPPER_JOG_H
 
@@ -14,8 +14,8 @@ typedef struct {
     float jerk;         // units/s^3, 0: trapezoid
 } jog_request_t;
 
-// Goes to this target from now on. If another axis is moving it comes to a standstill first. The machine
-// stands, or jogs. Context: main with the governor locked.
+// Goes to this target from now on. If another axis is moving it comes to a standstill first. The
+// machine stands, or jogs. Context: main with the governor locked.
 void jog_start(const jog_request_t *request);
 
 // Brake to a standstill and stay there. Contexts: main with the governor locked, governor.

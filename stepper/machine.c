@@ -24,7 +24,8 @@ void machine_follow_motors(void) {
 }
 
 void machine_follow_stops(void) {
-    // Once, and at once: telling the user may take its time, and a position set until then stays known.
+    // Once, and at once: telling the user may take its time, and a position set until then stays
+    // known.
     if (governor_estop_event()) {
         governor_clear_estop_event();
         machine.position_known = false;

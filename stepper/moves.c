@@ -1,5 +1,5 @@
-// New entries of the block ring: what a move is like, how it follows the one before, and blends between
-// lines. Context: main loop.
+// New entries of the block ring: what a move is like, how it follows the one before, and blends
+// between lines. Context: main loop.
 #include "stepper/moves.h"
 
 #include <float.h>
@@ -56,9 +56,10 @@ static void fill_move(block_t *block, const geometry_t *g, float corner2,
     block->move.corner = planner_v2(corner2);
 }
 
-// ---- Blends --------------------------------------------------------------------------------------
+// ---- Blends -------------------------------------------------------------------------------------
 
-// The newest block is a line that nobody has begun to follow; the corner behind it may still be changed.
+// The newest block is a line that nobody has begun to follow; the corner behind it may still be
+// changed.
 static bool may_shorten(void) {
     uint32_t used = ring_used(&blocks.ring);
     return moves.corner && moves.blends && blocks.ring.size >= BLEND_RING_MIN &&
@@ -78,8 +79,8 @@ static float stop_length(float speed, float acceleration, float jerk) {
     return top * (0.5f * top / acceleration + 2.0f * ramp);
 }
 
-// Whether the machine can still stop before the newest line ends, if that is `length` long. Only then may
-// its end be changed: what is done already does not depend on anything behind it.
+// Whether the machine can still stop before the newest line ends, if that is `length` long. Only
+// then may its end be changed: what is done already does not depend on anything behind it.
 static bool is_far_ahead(const block_t *line, float length) {
     float speed, left;
     governor_whereabouts(&speed, &left);
@@ -99,8 +100,8 @@ static bool is_far_ahead(const block_t *line, float length) {
     return overrun2 <= 0.0f || planner_v2(overrun2) < line->climb - second->climb + gain;
 }
 
-// Cuts `lead` in 2^-32 off the end of the newest block, a line. False: it is too late for that. Governor
-// locked.
+// Cuts `lead` in 2^-32 off the end of the newest block, a line. False: it is too late for that.
+// Governor locked.
 static bool shorten(uint32_t lead) {
     block_t *line = planner_newest();
     float rest = geometry_part(&moves.last, line->move.line.lead_in, lead);
@@ -112,8 +113,8 @@ static bool shorten(uint32_t lead) {
     return true;
 }
 
-// Rounds the corner to the new line `g` off: a block for the parabola and one for what is left of the line.
-// False if that is not possible or no use.
+// Rounds the corner to the new line `g` off: a block for the parabola and one for what is left of
+// the line. False if that is not possible or no use.
 static bool push_blended(const geometry_t *g, const stepper_move_t *move,
                          const int32_t target_steps[AXIS_COUNT]) {
     geometry_t curve;
@@ -140,7 +141,7 @@ static bool push_blended(const geometry_t *g, const stepper_move_t *move,
     return done;
 }
 
-// ---- New moves -----------------------------------------------------------------------------------
+// ---- New moves ----------------------------------------------------------------------------------
 
 // The move `g` is queued; the next one starts behind it.
 static void follow_move(const geometry_t *g, const stepper_move_t *move,

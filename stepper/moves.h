@@ -10,11 +10,12 @@ void moves_set_position(const int32_t steps[AXIS_COUNT]);
 // The end of the last queued move, unrounded, in units.
 void moves_target(double target[AXIS_COUNT]);
 
-// Slots that may be filled. One is kept for the blend with the next line, if the last line allows one.
+// Slots that may be filled. One is kept for the blend with the next line, if the last line allows
+// one.
 uint32_t moves_free(void);
 
-// Puts a move, whose target has been checked, behind all others. A move shorter than half a step of each
-// axis is not queued: its way is part of the next one.
+// Puts a move, whose target has been checked, behind all others. A move shorter than half a step of
+// each axis is not queued: its way is part of the next one.
 void moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
 typedef struct arc arc_t; // stepper/arc.h
 void moves_push_arc(const arc_t *arc, const stepper_move_t *move,

@@ -1,8 +1,8 @@
 // The way of a move that is being executed. Context: governor.
 //
-// Line: a part of the way from one end to the other. Blend: the parabola between two places on the lines
-// before and behind it, with the corner as its third point. Arc: the radius at its start, turned and, if
-// need be, stretched evenly:
+// Line: a part of the way from one end to the other. Blend: the parabola between two places on the
+// lines before and behind it, with the corner as its third point. Arc: the radius at its start,
+// turned and, if need be, stretched evenly:
 //   position - start = start radius * (cos - 1) + its perpendicular * sin + rest * progress
 // `rest` is what rounding to steps leaves over at the end.
 #include "stepper/path.h"
@@ -42,7 +42,7 @@ static struct {
     } arc;
 } path;
 
-// ---- Fractions -----------------------------------------------------------------------------------
+// ---- Fractions ----------------------------------------------------------------------------------
 
 // value * fraction * 2^-32
 static int64_t part_of(int64_t value, uint32_t fraction) {
@@ -64,7 +64,7 @@ static int binary_size(float value) {
     return (int)(bits >> 23) - 126;
 }
 
-// ---- Arcs ----------------------------------------------------------------------------------------
+// ---- Arcs ---------------------------------------------------------------------------------------
 
 // From the start, in 2^-32 steps, without `rest`.
 static void arc_offset(uint32_t angle, int32_t growth, int64_t offset[2]) {
@@ -174,7 +174,7 @@ static void arc_at(uint32_t fraction, int64_t position[AXIS_COUNT]) {
     }
 }
 
-// ---- Lines and blends ----------------------------------------------------------------------------
+// ---- Lines and blends ---------------------------------------------------------------------------
 
 static void begin_line(const block_t *block) {
     path.line.lead_in = block->move.line.lead_in;
@@ -214,7 +214,7 @@ static void blend_at(uint32_t fraction, int64_t position[AXIS_COUNT]) {
     }
 }
 
-// ---- Any move ------------------------------------------------------------------------------------
+// ---- Any move -----------------------------------------------------------------------------------
 
 void path_stand(const int32_t steps[AXIS_COUNT]) {
     path.kind = BLOCK_DWELL;

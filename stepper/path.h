@@ -1,11 +1,12 @@
-// The way of a move that is being executed: from the fraction of its length to exact positions. Inside
-// stepper/ only. Context: governor.
+// The way of a move that is being executed: from the fraction of its length to exact positions.
+// Inside stepper/ only. Context: governor.
 #ifndef STEPPER_PATH_H
 #define STEPPER_PATH_H
 
 #include "stepper/planner.h"
 
-// Follows `block` next, the front of the ring, behind the one that path_begin() was called with before.
+// Follows `block` next, the front of the ring, behind the one that path_begin() was called with
+// before.
 void path_begin(const block_t *block);
 
 // Stands at `steps`; the next path begins there.

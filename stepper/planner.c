@@ -1,20 +1,20 @@
-// Look-ahead. A block may be entered no faster than its corner allows and no faster than lets it brake
-// for all that follows: entry^2 <= next entry^2 + 2 * acceleration * length, the last one ending at
-// rest. Entry speeds are upper bounds: the governor accelerates within the limits anyway, and arriving
-// slower than planned is always safe.
+// Look-ahead. A block may be entered no faster than its corner allows and no faster than lets it
+// brake for all that follows: entry^2 <= next entry^2 + 2 * acceleration * length, the last one
+// ending at rest. Entry speeds are upper bounds: the governor accelerates within the limits anyway,
+// and arriving slower than planned is always safe.
 //
 //   cap   ----.   .---------.        entry_cap: corner and feed
 //             |   |         |
 //   entry --. '---'     .   '--.     entry: what braking allows, from the newest block backwards
 //            \_________/ \      \ 0
 //
-// With climb(k) = the sum of 2 * acceleration * length of all blocks before k this reads
-// entry(k)^2 = min over all n >= k of (cap(n)^2 + climb(n)) - climb(k). The bracket does not depend on k, so
-// nothing is ever planned anew: a queue of the blocks whose bracket is below those of all later ones has the
-// answer at its front. A new block takes those above its own off the back, each block once. The end
-// of the path, cap 0, moves with each block and is kept beside the queue. These are also the only places
-// that the governor has to look at when it limits the jerk.
-// Context: main loop, the queue with the governor locked; the governor for what its section says.
+// With climb(k) = the sum of 2 * acceleration * length of all blocks before k this reads entry(k)^2
+// = min over all n >= k of (cap(n)^2 + climb(n)) - climb(k). The bracket does not depend on k, so
+// nothing is ever planned anew: a queue of the blocks whose bracket is below those of all later
+// ones has the answer at its front. A new block takes those above its own off the back, each block
+// once. The end of the path, cap 0, moves with each block and is kept beside the queue. These are
+// also the only places that the governor has to look at when it limits the jerk. Context: main
+// loop, the queue with the governor locked; the governor for what its section says.
 #include "stepper/planner.h"
 
 #include <math.h>
@@ -63,7 +63,7 @@ static inline span_t limits_of(const block_t *block) {
                                 : span_unlimited;
 }
 
-// ---- The queue of binding caps -------------------------------------------------------------------
+// ---- The queue of binding caps ------------------------------------------------------------------
 
 static uint32_t slot_before(uint32_t slot) {
     return slot > 0 ? slot - 1 : blocks.ring.size - 1;
@@ -114,8 +114,9 @@ static inline void join_group(binding_t *binding, uint32_t index, v2_t cap, span
     binding->group_span[group] = span_least(binding->group_span[group], span);
 }
 
-// Takes up the entry cap of the block, the one behind those that were taken up before; its way and climb
-// are known. Returns the limits from the last binding entry to behind it; `before`: to its beginning.
+// Takes up the entry cap of the block, the one behind those that were taken up before; its way and
+// climb are known. Returns the limits from the last binding entry to behind it; `before`: to its
+// beginning.
 __attribute__((always_inline)) static inline span_t bind(uint32_t slot, span_t before) {
     block_t *block = &blocks.slots[slot];
     span_t own = limits_of(block);
@@ -148,7 +149,8 @@ float planner_top_speed(const block_t *move) {
     return top_speed(move, &blocks.override);
 }
 
-// The corner within the speeds on both sides of it. It binds unless the block before is that slow anyway.
+// The corner within the speeds on both sides of it. It binds unless the block before is that slow
+// anyway.
 static void find_entry_cap(const block_t *before, block_t *block,
                            const planner_override_t *override) {
     block->binds = true;
@@ -167,7 +169,7 @@ static void find_entry_cap(const block_t *before, block_t *block,
     block->binds = cap < planner_v2(speed_before * speed_before);
 }
 
-// ---- New blocks ----------------------------------------------------------------------------------
+// ---- New blocks ---------------------------------------------------------------------------------
 
 block_t *planner_free_slot(uint32_t n) {
     uint32_t slot = blocks.ring.put_slot + n;
@@ -220,8 +222,8 @@ __attribute__((noinline)) static void bind_all(void) {
     blocks.end_span = span;
 }
 
-// The caps of the blocks are no business of the governor's, so the long part runs unlocked; blocks that
-// are executed meanwhile keep their contents. The queue and the factors change together.
+// The caps of the blocks are no business of the governor's, so the long part runs unlocked; blocks
+// that are executed meanwhile keep their contents. The queue and the factors change together.
 void planner_set_override(const planner_override_t *override) {
     uint32_t slot = blocks.ring.put_slot;
     for (uint32_t waiting = ring_used(&blocks.ring); waiting > 1; waiting--) {
@@ -239,7 +241,7 @@ span_t planner_span_of(const block_t *block) {
     return limits_of(block);
 }
 
-// ---- For the governor ----------------------------------------------------------------------------
+// ---- For the governor ---------------------------------------------------------------------------
 
 static const block_t *block_ahead(uint32_t n) {
     if (ring_used(&blocks.ring) <= n) {

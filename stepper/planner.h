@@ -39,7 +39,8 @@ typedef struct {
             v2_t entry_cap; // the same, within what is allowed on both sides of the corner; main
             union {
                 struct {
-                    // What the blends before and behind it cut off, in 2^-32 of the programmed line.
+                    // What the blends before and behind it cut off, in 2^-32 of the programmed
+                    // line.
                     uint32_t lead_in, lead_out;
                 } line;
                 struct {
@@ -63,8 +64,8 @@ typedef struct {
     float feed, rapid;
 } planner_override_t;
 
-// The blocks whose entry cap binds: none of the later ones makes the machine slower there anyway. In the
-// order of the path, see planner.c.
+// The blocks whose entry cap binds: none of the later ones makes the machine slower there anyway.
+// In the order of the path, see planner.c.
 typedef struct {
     uint32_t first, count; // index of the nearest one
     uint64_t last_key;     // of the farthest one, see planner.c; main
@@ -93,8 +94,8 @@ typedef struct {
 
 extern planner_ring_t blocks;
 
-// Empties the ring and gives it `size` slots; overrides stay. moves_set_position() has to follow. Context:
-// main with the governor locked.
+// Empties the ring and gives it `size` slots; overrides stay. moves_set_position() has to follow.
+// Context: main with the governor locked.
 void planner_reset(uint32_t size);
 
 // Recomputes the speed scale after the axes changed. Context: main, ring empty.
@@ -110,7 +111,7 @@ static inline bool block_is_move(const block_t *block) {
     return block->kind <= BLOCK_BLEND;
 }
 
-// ---- For new blocks, in moves.c. Context: main ---------------------------------------------------
+// ---- For new blocks, in moves.c. Context: main --------------------------------------------------
 
 // The square of a speed as the planner counts it. Any context.
 v2_t planner_v2(float speed2);
@@ -119,15 +120,15 @@ v2_t planner_v2(float speed2);
 block_t *planner_free_slot(uint32_t n);
 block_t *planner_newest(void);
 
-// Puts the next `count` slots, which are filled in, behind all others: finds their entry caps, then, with
-// the governor locked, plans and publishes them.
+// Puts the next `count` slots, which are filled in, behind all others: finds their entry caps,
+// then, with the governor locked, plans and publishes them.
 void planner_find_caps(uint32_t count);
 void planner_publish(uint32_t count);
 
 // The newest block is only that long from now on. Governor locked, nothing was based on its end.
 void planner_shorten(float length);
 
-// ---- For the governor ----------------------------------------------------------------------------
+// ---- For the governor ---------------------------------------------------------------------------
 
 // The block to execute and the one behind it, NULL if there is none.
 const block_t *planner_front(void);

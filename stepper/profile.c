@@ -2,7 +2,7 @@
 //
 //   speed |       _______________           accelerate until `top` or the braking curve,
 //         |     .'               '.         cruise until the braking curve,
-//         |___.'                   '.___    brake to what the planner allows at the end of the block
+//         |___.'                   '.___    brake to what the planner allows at the block's end
 //
 // Context: governor.
 #include "stepper/profile.h"
@@ -16,8 +16,8 @@
 // Braking may be that much harder to come back to the braking curve, which rounding has left.
 #define BRAKING_SLACK 1.001f
 
-// Solves v1^2 = exit^2 + 2 a (left - (v + v1) / 2 dt), so that braking which starts behind this slice
-// still succeeds.
+// Solves v1^2 = exit^2 + 2 a (left - (v + v1) / 2 dt), so that braking which starts behind this
+// slice still succeeds.
 float profile_braking_speed(const profile_t *now, float exit_speed2, float dt) {
     float acceleration = now->block->move.acceleration;
     float change = acceleration * dt;
@@ -37,8 +37,9 @@ static bool split(float *ticks, float part_s) {
     return false;
 }
 
-// v + change. Adding the same again and again rounds the same way each time, which in a long ramp would
-// add up to an acceleration of its own: what was rounded off is made up for in the next slice.
+// v + change. Adding the same again and again rounds the same way each time, which in a long ramp
+// would add up to an acceleration of its own: what was rounded off is made up for in the next
+// slice.
 static float faster(float v, float change) {
     static struct {
         float speed, rest;

@@ -1,5 +1,5 @@
-// How fast the machine may be at the end of the next moment: the speed profile, with and without a limit of
-// the jerk. Inside stepper/ only. Context: governor.
+// How fast the machine may be at the end of the next moment: the speed profile, with and without a
+// limit of the jerk. Inside stepper/ only. Context: governor.
 #ifndef STEPPER_PROFILE_H
 #define STEPPER_PROFILE_H
 
@@ -14,12 +14,12 @@ typedef struct {
     float acceleration; // units/s^2 that led here
 } profile_t;
 
-// The speed after the next `*ticks`, counted to the end of the block and beyond as if it went on. May
-// lessen `*ticks` to where the acceleration changes. For blocks without a jerk limit.
+// The speed after the next `*ticks`, counted to the end of the block and beyond as if it went on.
+// May lessen `*ticks` to where the acceleration changes. For blocks without a jerk limit.
 float profile_next_speed(const profile_t *now, float *ticks);
 
-// The most after the next `dt` seconds from which the acceleration alone can still brake to the exit
-// speed; not less than braking gives.
+// The most after the next `dt` seconds from which the acceleration alone can still brake to the
+// exit speed; not less than braking gives.
 float profile_braking_speed(const profile_t *now, float exit_speed2, float dt);
 
 #endif

@@ -1,8 +1,8 @@
 // Jerk-limited changes of speed. Context: any, pure functions.
 //
-// A change by D from rest of acceleration to rest of acceleration takes T = 2 sqrt(D / J) if that stays
-// below the full acceleration A, that is D <= A^2 / J, and D / A + A / J otherwise. Its speed is
-// symmetrical in time, so the way is the mean speed times T.
+// A change by D from rest of acceleration to rest of acceleration takes T = 2 sqrt(D / J) if that
+// stays below the full acceleration A, that is D <= A^2 / J, and D / A + A / J otherwise. Its speed
+// is symmetrical in time, so the way is the mean speed times T.
 #include "stepper/ramp.h"
 
 #include <math.h>
@@ -45,7 +45,8 @@ float ramp_braking_distance(const ramp_t *ramp, float v, float a, float w) {
     return ramp_distance(ramp, start, w) + build_up * (start - (1.0f / 3.0f) * taken_back);
 }
 
-// The acceleration a over `time` and then taken back gives v + a time + a^2 / 2J = top; downwards alike.
+// The acceleration a over `time` and then taken back gives v + a time + a^2 / 2J = top; downwards
+// alike.
 float ramp_towards(const ramp_t *ramp, float v, float top, float time) {
     float step = ramp->jerk * time;
     float change = top - v;

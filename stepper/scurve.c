@@ -1,6 +1,7 @@
-// The speed profile with a limit of the jerk. The acceleration of each slice is the highest within the
-// jerk for which every binding cap ahead can still be met: the way that braking to it takes, with jerk and
-// acceleration limited and none left at the cap, must not be longer than the way there.
+// The speed profile with a limit of the jerk. The acceleration of each slice is the highest within
+// the jerk for which every binding cap ahead can still be met: the way that braking to it takes,
+// with jerk and acceleration limited and none left at the cap, must not be longer than the way
+// there.
 //
 //   speed |         .-------.                  J  build up  : a rises to A
 //         |       .'         '.                0  keep      : a = A
@@ -10,8 +11,8 @@
 // That looks across blocks, so a thousand short ones run like one long one. Braking as hard as the
 // limits allow is always among the choices and meets all caps if the choices before did.
 //
-// Slices of constant acceleration follow a straight line of jerk if they have its value at their middle; so
-// it is the middle of a slice from which the acceleration is thought to change further.
+// Slices of constant acceleration follow a straight line of jerk if they have its value at their
+// middle; so it is the middle of a slice from which the acceleration is thought to change further.
 // Context: governor.
 #include "stepper/scurve.h"
 
@@ -27,7 +28,8 @@
 #define QUIET_S ((SCURVE_QUIET_TICKS + 100.0f) / (float)HAL_TICK_HZ) // and a slice
 
 // Bounds whose speeds are alike count as one, at the place of the nearest and with the speed of the
-// slowest: the ratio of their squares, coarser the more have been looked at, since the far ones matter less.
+// slowest: the ratio of their squares, coarser the more have been looked at, since the far ones
+// matter less.
 #define ALIKE_CHANGES 4u
 static const float alike[] = {0.94f, 0.8f, 0.5f};
 #define TESTS_MAX (ALIKE_CHANGES * 3u)
@@ -35,8 +37,8 @@ static const float alike[] = {0.94f, 0.8f, 0.5f};
 // With more than this it is worth the time to look closely how far ahead they can matter.
 #define BOUNDS_FEW 8u
 
-// Braking is planned with a little less than the limits, so that what rounding and slices do to it can be
-// made up for on the way.
+// Braking is planned with a little less than the limits, so that what rounding and slices do to it
+// can be made up for on the way.
 #define PLANNED_ACCELERATION 0.99f
 #define PLANNED_JERK 0.97f
 #define PLANNED_CAP2 0.98f // of the square of the speed
@@ -164,7 +166,7 @@ static void choose_freely(choice_t *choice, float elapsed_s) {
     }
 }
 
-// ---- Bounds --------------------------------------------------------------------------------------
+// ---- Bounds -------------------------------------------------------------------------------------
 
 // By how much braking ends before `distance` if this slice has `acceleration`.
 static float margin(const choice_t *choice, float acceleration, float distance, float cap) {
@@ -218,8 +220,8 @@ static void take_span(choice_t *choice, span_t span) {
     choice->within = reach(&choice->ramp, choice->crest);
 }
 
-// Limits that are lower behind the first bound must be kept when it is passed, `way` from the end of
-// the front block.
+// Limits that are lower behind the first bound must be kept when it is passed, `way` from the end
+// of the front block.
 static void keep_next_span(choice_t *choice, span_t span, int32_t way) {
     if (span.acceleration >= choice->span.acceleration) {
         return;
@@ -288,8 +290,8 @@ static void meet_bounds(choice_t *choice) {
     }
 }
 
-// With less jerk in the next block the acceleration must be one that can be taken back there before the
-// top speed is reached.
+// With less jerk in the next block the acceleration must be one that can be taken back there before
+// the top speed is reached.
 static void keep_next_jerk(choice_t *choice, const block_t *next) {
     const profile_t *now = choice->now;
     float take_back_s = choice->chosen / next->move.jerk;
@@ -303,8 +305,8 @@ static void keep_next_jerk(choice_t *choice, const block_t *next) {
     }
 }
 
-// The next block may allow less: what is above that has to be gone when it begins. (Braking for a bound
-// is planned with the least limits of all blocks that it goes through.)
+// The next block may allow less: what is above that has to be gone when it begins. (Braking for a
+// bound is planned with the least limits of all blocks that it goes through.)
 static void keep_next_limit(choice_t *choice) {
     const block_t *second = planner_second();
     if (second == NULL || !block_is_move(second)) {
@@ -331,7 +333,8 @@ float scurve_acceleration(const profile_t *now, float elapsed_s) {
 
     float v1 = now->speed + choice.chosen * SLICE_S;
     if (choice.out_of_reach) {
-        // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk last.
+        // By a hair, or limits fell behind what was promised: speed and acceleration first, jerk
+        // last.
         float exit_speed2 = planner_exit_speed2();
         float most =
             HAIR * (now->left > now->speed * SLICE_S

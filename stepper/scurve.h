@@ -4,7 +4,8 @@
 
 #include "stepper/profile.h"
 
-// An acceleration is meant to hold for this long. Shorter follows the limits more closely, and costs more.
+// An acceleration is meant to hold for this long. Shorter follows the limits more closely, and
+// costs more.
 #define SCURVE_TICKS 200.0f
 
 // The acceleration for the next SCURVE_TICKS. now->acceleration is the one that ends here, after

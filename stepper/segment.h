@@ -1,6 +1,5 @@
-// The segment ring: what the governor hands to the tick. Inside stepper/ only.
-// A segment is some ticks in which the speed of each axis changes evenly. The governor writes, the tick
-// reads.
+// The segment ring: what the governor hands to the tick. Inside stepper/ only. A segment is some
+// ticks in which the speed of each axis changes evenly. The governor writes, the tick reads.
 #ifndef STEPPER_SEGMENT_H
 #define STEPPER_SEGMENT_H
 
@@ -11,8 +10,8 @@
 // Exact positions count in 2^-32 of a step.
 #define STEP_ONE ((int64_t)1 << 32)
 
-// Fractions of a step in 2^-32. Each tick adds the rate to the phase, where a carry is a step, and then
-// the ramp to the rate: at the ticks the axis is exactly on a parabola.
+// Fractions of a step in 2^-32. Each tick adds the rate to the phase, where a carry is a step, and
+// then the ramp to the rate: at the ticks the axis is exactly on a parabola.
 typedef struct {
     uint32_t phase;
     uint32_t rate;       // in every tick at most RATE_MAX

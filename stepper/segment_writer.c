@@ -1,9 +1,10 @@
 // From positions and times to phases, rates and ramps.
 //
-// The exact position of each axis is kept in 2^-32 of a step and moves by the sum of the rates of each
-// segment, nothing else; whatever rounding leaves over stays in the distance to the next target. The
-// motor stands at the nearest whole step: floor(position + 1/2). Hence the phase, which is
-// the fraction of position + 1/2, counts up to the next step; for a direction down it is mirrored.
+// The exact position of each axis is kept in 2^-32 of a step and moves by the sum of the rates of
+// each segment, nothing else; whatever rounding leaves over stays in the distance to the next
+// target. The motor stands at the nearest whole step: floor(position + 1/2). Hence the phase, which
+// is the fraction of position + 1/2, counts up to the next step; for a direction down it is
+// mirrored.
 //
 // Within a segment of n ticks the rate rises evenly around its mean:
 //
@@ -13,12 +14,13 @@
 //        |.-+-'             way   = mean * n, exactly
 //        +-+-+-+-+-+-+-> ticks
 //
-// A target is where the path is at a time that may lie between two ticks. The segment ends at the last tick
-// before, with the rate of the path, and the rest of the way has the rest of the time.
+// A target is where the path is at a time that may lie between two ticks. The segment ends at the
+// last tick before, with the rate of the path, and the rest of the way has the rest of the time.
 #include "stepper/segment_writer.h"
 
 #define HALF_STEP (STEP_ONE / 2)
-// Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis round.
+// Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis
+// round.
 #define NO_DISTANCE ((int64_t)1 << 20)
 #define TICK_ONE ((int32_t)1 << 16) // times in 2^-16 ticks
 #define ROOM 4                      // segments: one call writes up to that many
@@ -51,7 +53,8 @@ static struct {
     pace_t pace;          // the last one; the next is often the same
 } writer;
 
-// Segments that were dropped may have been about to turn an axis round, so the pins have the last word.
+// Segments that were dropped may have been about to turn an axis round, so the pins have the last
+// word.
 static void follow_dir_pins(void) {
     uint32_t pins = hal_pins_read();
     writer.negative = 0;
@@ -117,7 +120,7 @@ bool segment_writer_has_room(void) {
     return ring_free(&segments.ring) >= writer.unpublished + ROOM;
 }
 
-// ---- One segment ---------------------------------------------------------------------------------
+// ---- One segment --------------------------------------------------------------------------------
 
 // The upper half of a product; exact would be up to 2 more.
 static inline uint32_t multiply_high(uint32_t a, uint32_t b) {
@@ -254,7 +257,7 @@ static void shorten(uint32_t ticks, uint32_t standing) {
     }
 }
 
-// ---- A way ---------------------------------------------------------------------------------------
+// ---- A way --------------------------------------------------------------------------------------
 
 // What is still to go.
 typedef struct {
@@ -336,9 +339,10 @@ static void switch_directions(uint32_t turning) {
     }
 }
 
-// Lets axes turn round that stand in the open slot. The direction pin changes at least a tick behind the
-// last pulse's end and a tick ahead of the next pulse: an axis that has just made a step, or is about to,
-// stands for a tick. Near standstill, where axes turn as a rule, that is not the case.
+// Lets axes turn round that stand in the open slot. The direction pin changes at least a tick
+// behind the last pulse's end and a tick ahead of the next pulse: an axis that has just made a
+// step, or is about to, stands for a tick. Near standstill, where axes turn as a rule, that is not
+// the case.
 SEPARATE static void turn(way_t *way, uint32_t turning) {
     if (just_stepped(turning) != 0) {
         go_one_tick(way, turning);
@@ -355,8 +359,8 @@ SEPARATE static void turn(way_t *way, uint32_t turning) {
     }
 }
 
-// The motion is to end with what is in the open slot. Where the end of the way lies between two ticks, or
-// the limit of the rate has left something over, the rest follows as fast as possible.
+// The motion is to end with what is in the open slot. Where the end of the way lies between two
+// ticks, or the limit of the rate has left something over, the rest follows as fast as possible.
 SEPARATE static void arrive(const int64_t target[AXIS_COUNT]) {
     int64_t farthest = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {

@@ -12,10 +12,10 @@ void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 // direction pin of axis n is low when it counts up.
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
 
-// Goes to `target` (2^-32 steps) within `ticks` (less than 2^14). The segment ends at the last whole tick
-// in that time; what is left of time and way is the next call's, all of it if it is less than a tick.
-// `change`: how the speed along the path changes on the way, (end - start) / (end + start) in
-// SEGMENT_CHANGE_ONE, at most 1. `at_rest`: the motion ends there, and now.
+// Goes to `target` (2^-32 steps) within `ticks` (less than 2^14). The segment ends at the last
+// whole tick in that time; what is left of time and way is the next call's, all of it if it is less
+// than a tick. `change`: how the speed along the path changes on the way, (end - start) / (end +
+// start) in SEGMENT_CHANGE_ONE, at most 1. `at_rest`: the motion ends there, and now.
 #define SEGMENT_CHANGE_ONE ((int32_t)1 << 30)
 static inline int32_t segment_writer_change(float start, float end) {
     float rise = end - start;
@@ -37,7 +37,8 @@ void segment_writer_end_steps(int32_t steps[AXIS_COUNT]);
 // Takes the motor position as the exact position, after a stop between two steps.
 void segment_writer_settle(void);
 
-// Ticks behind the segment that the tick is at, and with all of that one; room for what one call of the functions above can write.
+// Ticks behind the segment that the tick is at, and with all of that one; room for what one call of
+// the functions above can write.
 uint32_t segment_writer_spare_ticks(void);
 uint32_t segment_writer_ahead_ticks(void);
 bool segment_writer_has_room(void);

@@ -1,14 +1,14 @@
-// The least acceleration and jerk of some blocks in a row, in three bytes. Inside stepper/ only. All of it is
-// inline: the planner does this for each block while the governor waits.
-// Contexts: main loop, governor.
+// The least acceleration and jerk of some blocks in a row, in three bytes. Inside stepper/ only.
+// All of it is inline: the planner does this for each block while the governor waits. Contexts:
+// main loop, governor.
 #ifndef STEPPER_SPAN_H
 #define STEPPER_SPAN_H
 
 #include <stdint.h>
 #include <string.h>
 
-// Rounded down: the upper half of a float, and its exponent with two more bits. Codes compare like what they
-// stand for.
+// Rounded down: the upper half of a float, and its exponent with two more bits. Codes compare like
+// what they stand for.
 typedef struct {
     uint16_t acceleration;
     uint8_t jerk;

@@ -1,11 +1,12 @@
 // The tick, 100 kHz, highest priority, in RAM: integers only, no division, no call into flash.
 //
-// Each axis is an accumulator of its own: phase += rate, and a carry out of 32 bits is a step. So a slow
-// axis is as evenly timed as a fast one, and with rate <= 2^31 there is always a tick without a step
-// between two steps, in which the pin goes low. The rate changes in each tick as well (rate += ramp), so
-// that speeds are ramps and not stairs. The governor knows phase, rate and ramp exactly and therefore
-// the number of steps in a segment; nothing needs to be counted here. Where the motors are in
-// the middle of a segment follows from the ticks that are done (step_isr_position).
+// Each axis is an accumulator of its own: phase += rate, and a carry out of 32 bits is a step. So a
+// slow axis is as evenly timed as a fast one, and with rate <= 2^31 there is always a tick without
+// a step between two steps, in which the pin goes low. The rate changes in each tick as well (rate
+// += ramp), so that speeds are ramps and not stairs. The governor knows phase, rate and ramp
+// exactly and therefore the number of steps in a segment; nothing needs to be counted here. Where
+// the motors are in the middle of a segment follows from the ticks that are done
+// (step_isr_position).
 #include "stepper/step_isr.h"
 
 segment_ring_t segments;
@@ -13,12 +14,12 @@ segment_ring_t segments;
 #define STEP_COMBINATIONS (1u << AXIS_COUNT)
 
 // The compiler has to have `x` in a register here and memory up to date: it neither rewrites the
-// arithmetic around it nor mixes what comes before with what comes behind, which on a Cortex-M0+ takes
-// more registers than there are. Costs nothing by itself.
+// arithmetic around it nor mixes what comes before with what comes behind, which on a Cortex-M0+
+// takes more registers than there are. Costs nothing by itself.
 #define HOLD_VALUE(x) __asm volatile("" : "+r"(x) : : "memory")
 
-// Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to see a
-// pair that belongs together.
+// Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to
+// see a pair that belongs together.
 static struct {
     segment_t *volatile current;           // NULL: none
     volatile uint32_t ticks_left;          // of the current one
@@ -119,8 +120,8 @@ void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]) {
     }
 }
 
-// Motor position at `left` ticks before the end of `segment`: phase and rate at its start follow from
-// those now, and the carries since then from 64-bit arithmetic.
+// Motor position at `left` ticks before the end of `segment`: phase and rate at its start follow
+// from those now, and the carries since then from 64-bit arithmetic.
 static void position_in(const segment_t *segment, uint32_t left, int32_t steps[AXIS_COUNT]) {
     uint64_t done = segment->ticks - left;
     uint64_t ramps = done * (done - 1) / 2; // 0 + 1 + ... + (done - 1): how often each ramp counts

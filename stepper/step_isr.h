@@ -4,9 +4,9 @@
 
 #include "stepper/segment.h"
 
-// Starts afresh with an empty ring. The tick will stop the machine when a pin of `trip_mask` has the
-// level that `trip_levels` has for it. While there is such a pin the tick goes on when there is nothing
-// to execute; otherwise it stops by itself. Context: main, while the tick is stopped.
+// Starts afresh with an empty ring. The tick will stop the machine when a pin of `trip_mask` has
+// the level that `trip_levels` has for it. While there is such a pin the tick goes on when there is
+// nothing to execute; otherwise it stops by itself. Context: main, while the tick is stopped.
 void step_isr_setup(uint32_t trip_mask, uint32_t trip_levels);
 
 // The step pin of each axis as a mask, 0 for none. Context: main, while nothing moves.
@@ -20,7 +20,8 @@ void step_isr_abort(void);
 // Contexts: main with the governor locked, governor.
 bool step_isr_position(int32_t steps[AXIS_COUNT]);
 
-// A safety input has stopped the machine, and the tick with it. Until step_isr_rearm(). Any context.
+// A safety input has stopped the machine, and the tick with it. Until step_isr_rearm(). Any
+// context.
 bool step_isr_tripped(void);
 void step_isr_rearm(void);
 

@@ -1,6 +1,7 @@
-// Four stepper axes: configuration, the motion queue and what may be asked of it. The face of stepper/.
-// Positions are machine coordinates: mm for X, Y, Z and degrees for A. Work offsets are G-code's business.
-// Context: main loop, except hal_on_tick() and hal_on_governor(), which the port calls.
+// Four stepper axes: configuration, the motion queue and what may be asked of it. The face of
+// stepper/. Positions are machine coordinates: mm for X, Y, Z and degrees for A. Work offsets are
+// G-code's business. Context: main loop, except hal_on_tick() and hal_on_governor(), which the port
+// calls.
 #ifndef STEPPER_H
 #define STEPPER_H
 
@@ -21,7 +22,7 @@ typedef enum { AXIS_X, AXIS_Y, AXIS_Z, AXIS_A, AXIS_COUNT } axis_id_t;
 #define STEPPER_JERK_MAX 1.0e9
 #define STEPPER_STEP_RATE_MAX_HZ 50000.0 // one step in every second tick
 
-// ---- Configuration -------------------------------------------------------------------------------
+// ---- Configuration ------------------------------------------------------------------------------
 
 typedef struct {
     double arc_tolerance_mm;
@@ -54,7 +55,8 @@ double stepper_step_rate_limit(axis_id_t axis);
 // Soft limits of X, Y or Z. Errors: axis not configured, min >= max.
 err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm);
 
-// The output that spindle on and off switch; PINS_NONE takes it away. Refused while anything is queued.
+// The output that spindle on and off switch; PINS_NONE takes it away. Refused while anything is
+// queued.
 err_t stepper_spindle(uint8_t gpio, bool invert);
 
 // Junction deviation in mm (>= 0, 0 stops at every corner). Applies to moves queued from now on.
@@ -64,28 +66,28 @@ err_t stepper_junction(double deviation_mm);
 // (trapezoid). INIT: trapezoid.
 err_t stepper_scurve(bool on);
 
-// Jerk limits of moves queued from now on: along the path, and of each axis (0: none of its own), in
-// units/s^3, STEPPER_JERK_MIN..STEPPER_JERK_MAX. INIT: STEPPER_JERK_DEFAULT, none.
+// Jerk limits of moves queued from now on: along the path, and of each axis (0: none of its own),
+// in units/s^3, STEPPER_JERK_MIN..STEPPER_JERK_MAX. INIT: STEPPER_JERK_DEFAULT, none.
 err_t stepper_jerk(double path, const double axis[AXIS_COUNT]);
 
-// ---- Control -------------------------------------------------------------------------------------
+// ---- Control ------------------------------------------------------------------------------------
 
 typedef enum { STEPPER_IDLE_HOLD = 0, STEPPER_IDLE_DISABLE = 1 } stepper_idle_t;
 
-// Arms: turns the drivers on and executes what is queued now and later. `idle` says what the drivers
-// do when the queue has drained. Error: E-STOP asserted.
+// Arms: turns the drivers on and executes what is queued now and later. `idle` says what the
+// drivers do when the queue has drained. Error: E-STOP asserted.
 err_t stepper_run(stepper_idle_t idle);
 
 // Drops the queue. Error: motion is under way.
 err_t stepper_clear(void);
 
-// Controlled stop: brakes along the path within the acceleration limits, drops the rest of the queue;
-// the position stays exact. Returns at once; until standstill new moves are refused. At rest it only
-// drops what waits for RUN.
+// Controlled stop: brakes along the path within the acceleration limits, drops the rest of the
+// queue; the position stays exact. Returns at once; until standstill new moves are refused. At rest
+// it only drops what waits for RUN.
 void stepper_stop(void);
 
-// Feed hold: brakes along the path within the acceleration limits and waits, in a dwell as well; the
-// queue stays. `hold` false goes on from there. Stops end a hold.
+// Feed hold: brakes along the path within the acceleration limits and waits, in a dwell as well;
+// the queue stays. `hold` false goes on from there. Stops end a hold.
 err_t stepper_hold(bool hold);
 
 #define STEPPER_OVERRIDE_MIN 10
@@ -95,19 +97,19 @@ err_t stepper_hold(bool hold);
 // queued. The axes' limits stay. INIT sets 100.
 err_t stepper_override(int feed_percent, int rapid_percent);
 
-// Emergency stop: no further step, queue dropped, spindle off, drivers off (unless INIT keeps them),
-// disarmed. After a stop from speed the position counts as unknown.
+// Emergency stop: no further step, queue dropped, spindle off, drivers off (unless INIT keeps
+// them), disarmed. After a stop from speed the position counts as unknown.
 err_t stepper_estop(void);
 
 // Controlled stop, then gives all pins back. Waits for standstill.
 err_t stepper_close(void);
 
-// Says that the machine stands at `position` of `axis` / at zero of all axes. Position is known then.
-// Refused while anything moves or is queued.
+// Says that the machine stands at `position` of `axis` / at zero of all axes. Position is known
+// then. Refused while anything moves or is queued.
 err_t stepper_set_position(axis_id_t axis, double position);
 err_t stepper_set_home(void);
 
-// ---- The queue -----------------------------------------------------------------------------------
+// ---- The queue ----------------------------------------------------------------------------------
 // Each call puts one entry behind all before it, or fails and changes nothing.
 // Errors of all: not initialised, queue full, stopping.
 
@@ -131,16 +133,16 @@ typedef struct {
 // beyond the soft limits or what an int32 of steps can hold.
 err_t stepper_move(const stepper_move_t *move);
 
-// An arc in the plane of two axes; the other axes go along in proportion to the angle (helix). The end
-// point is move.target. If the radius there is a little different from that at the start, as it is with
-// rounded coordinates, it changes evenly along the arc.
+// An arc in the plane of two axes; the other axes go along in proportion to the angle (helix). The
+// end point is move.target. If the radius there is a little different from that at the start, as it
+// is with rounded coordinates, it changes evenly along the arc.
 typedef struct {
     stepper_move_t move;
     axis_id_t plane[2]; // counter-clockwise is from the first to the second axis: X Y, Z X or Y Z
     double centre[2];   // mm from the start, along these axes
     bool clockwise;
-    // The arc passes its end point turns - 1 times before it ends there; if it ends where it started, it is
-    // this many full circles. 1..STEPPER_ARC_TURNS_MAX.
+    // The arc passes its end point turns - 1 times before it ends there; if it ends where it
+    // started, it is this many full circles. 1..STEPPER_ARC_TURNS_MAX.
     uint32_t turns;
 } stepper_arc_t;
 
@@ -148,8 +150,9 @@ typedef struct {
 // Coordinates of an arc that were rounded to 0.01 mm can be this far off its circle.
 #define STEPPER_ARC_ROUNDING_MM 0.0283
 
-// Errors: as stepper_move(), for all of the arc's way; no radius, radius too large, and an end point that is
-// off the circle by more than STEPPER_ARC_ROUNDING_MM and a thousandth of the radius, or by 100 times that.
+// Errors: as stepper_move(), for all of the arc's way; no radius, radius too large, and an end
+// point that is off the circle by more than STEPPER_ARC_ROUNDING_MM and a thousandth of the radius,
+// or by 100 times that.
 err_t stepper_arc(const stepper_arc_t *arc);
 
 // Waits at standstill. 0..STEPPER_DWELL_MAX_MS.
@@ -162,19 +165,19 @@ err_t stepper_spindle_switch(bool on);
 // Where the last queued move ends; where the machine stands if none is queued.
 void stepper_target(double target[AXIS_COUNT]);
 
-// ---- Jogging -------------------------------------------------------------------------------------
+// ---- Jogging ------------------------------------------------------------------------------------
 
 // Moves one axis by hand: by `distance` units from where it stands, or without end for INFINITY and
-// -INFINITY, at `feed` units/min (0: as fast as the axis allows). A further call while a jog is under way
-// gives it a new target from the present position, without a stop if the way to it allows that.
-// Brakes before the soft limits when the position is known. Needs no known position.
-// Errors: not armed, a job is running or queued, axis not configured, feed not positive.
+// -INFINITY, at `feed` units/min (0: as fast as the axis allows). A further call while a jog is
+// under way gives it a new target from the present position, without a stop if the way to it allows
+// that. Brakes before the soft limits when the position is known. Needs no known position. Errors:
+// not armed, a job is running or queued, axis not configured, feed not positive.
 err_t stepper_jog(axis_id_t axis, double distance, double feed);
 
 // Brakes a jog to a standstill; nothing else is touched.
 err_t stepper_jog_stop(void);
 
-// ---- Reports -------------------------------------------------------------------------------------
+// ---- Reports ------------------------------------------------------------------------------------
 
 typedef struct {
     bool initialized, armed, moving, stopping, holding, jogging, position_known, spindle_on;

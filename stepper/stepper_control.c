@@ -5,8 +5,8 @@
 #include "stepper/moves.h"
 #include "stepper/planner.h"
 
-// Planning more blocks than this anew holds the governor off for longer than it is ahead; for a full
-// queue it takes less than this.
+// Planning more blocks than this anew holds the governor off for longer than it is ahead; for a
+// full queue it takes less than this.
 #define REPLAN_BLOCKS 100u
 #define REPLAN_TICKS 300u
 
@@ -99,7 +99,7 @@ err_t stepper_estop(void) {
     return ERR_OK;
 }
 
-// ---- Position ------------------------------------------------------------------------------------
+// ---- Position -----------------------------------------------------------------------------------
 
 static void stand_at(const int32_t steps[AXIS_COUNT]) {
     hal_governor_lock();

@@ -28,7 +28,8 @@ static err_t check(axis_id_t axis) {
     return ERR_OK;
 }
 
-// Where the jog ends: within the soft limits, but an axis that stands outside them is not pulled in.
+// Where the jog ends: within the soft limits, but an axis that stands outside them is not pulled
+// in.
 static int32_t find_target(axis_id_t axis, double from, double distance) {
     const axis_t *a = &axes[axis];
     double target = from + distance;

@@ -1,5 +1,6 @@
-// What writing the flash has to ask of motion: it stops every context for up to 50 ms, so nothing may move
-// or be able to start by itself. An E-STOP input alone can wait that long. Context: main loop.
+// What writing the flash has to ask of motion: it stops every context for up to 50 ms, so nothing
+// may move or be able to start by itself. An E-STOP input alone can wait that long. Context: main
+// loop.
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/planner.h"

@@ -1,11 +1,11 @@
-// Along the moves. For each slice of a millisecond profile.c or scurve.c chooses the speed at its end. The
-// way made in it becomes a segment for the tick; a slice in which blocks meet becomes one segment for each
-// side, so that corners are passed where they are.
+// Along the moves. For each slice of a millisecond profile.c or scurve.c chooses the speed at its
+// end. The way made in it becomes a segment for the tick; a slice in which blocks meet becomes one
+// segment for each side, so that corners are passed where they are.
 //
-// Speeds are float: the way through a block is a fraction in 2^-64, so that neither a slow feed nor a
-// long move loses anything, and positions are steps in 2^-32. All of it is computed with single IEEE
-// operations in a fixed order; host and board make the same segments to the bit.
-// Context: governor, or main with the governor locked.
+// Speeds are float: the way through a block is a fraction in 2^-64, so that neither a slow feed nor
+// a long move loses anything, and positions are steps in 2^-32. All of it is computed with single
+// IEEE operations in a fixed order; host and board make the same segments to the bit. Context:
+// governor, or main with the governor locked.
 #include "stepper/travel.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ static struct {
     float pending_from;   // speed at its beginning
 } travel;
 
-// ---- The way along a move ------------------------------------------------------------------------
+// ---- The way along a move -----------------------------------------------------------------------
 
 static float remaining(void) {
     return (float)~travel.progress * (travel.block->move.length / PROGRESS_ONE);
@@ -98,8 +98,8 @@ static bool goes_straight_on(void) {
     return second != NULL && block_is_move(second) && second->move.corner == V2_MAX;
 }
 
-// The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the ticks of
-// it that are used.
+// The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the
+// ticks of it that are used.
 static float pass_end(float left, float v1, float dt) {
     float v = travel.speed;
     float acceleration = (v1 - v) / dt;
@@ -141,8 +141,8 @@ static profile_t profile_here(float left, bool braking) {
     };
 }
 
-// The speed after the next `*ticks`, which it may lessen. The jerk-limited profile looks across blocks, so
-// what it chose holds behind them as well, for some slices.
+// The speed after the next `*ticks`, which it may lessen. The jerk-limited profile looks across
+// blocks, so what it chose holds behind them as well, for some slices.
 static float next_speed(float left, bool braking, float *ticks) {
     if (travel.overrides != blocks.overrides) {
         travel.overrides = blocks.overrides;
@@ -169,8 +169,8 @@ static float next_speed(float left, bool braking, float *ticks) {
         travel.choose_again = false;
     }
     float v1 = scurve_speed(travel.speed, travel.acceleration, *ticks * TICK_S);
-    // On the way to a standstill a slice that is shorter than planned leaves a part of the speed; the
-    // next one leaves a part of that, and so on.
+    // On the way to a standstill a slice that is shorter than planned leaves a part of the speed;
+    // the next one leaves a part of that, and so on.
     return braking && v1 < STANDSTILL ? 0.0f : v1;
 }
 

@@ -1,5 +1,5 @@
-// Along the moves of the block ring: time becomes way, and way becomes segments. Inside stepper/ only.
-// Context: governor, or main with the governor locked.
+// Along the moves of the block ring: time becomes way, and way becomes segments. Inside stepper/
+// only. Context: governor, or main with the governor locked.
 #ifndef STEPPER_TRAVEL_H
 #define STEPPER_TRAVEL_H
 
@@ -17,8 +17,8 @@ typedef enum {
     TRAVEL_STOPPED, // at rest within a block
 } travel_t;
 
-// One slice of `ticks`, through as many blocks as it touches and the segment ring has room for; blocks
-// that it leaves are released. `braking`: to a standstill as soon as the limits allow.
+// One slice of `ticks`, through as many blocks as it touches and the segment ring has room for;
+// blocks that it leaves are released. `braking`: to a standstill as soon as the limits allow.
 travel_t travel_advance(float ticks, bool braking);
 
 // Something has changed: a jerk limit should not wait until its last choice is over.

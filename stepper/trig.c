@@ -1,6 +1,7 @@
 // Sine, cosine and angles that are the same to the bit on every machine. Context: any.
 //
-// The nearest of 64 places in a quarter turn comes from a table, and from there it is at most 0.0123 rad:
+// The nearest of 64 places in a quarter turn comes from a table, and from there it is at most
+// 0.0123 rad:
 //   cos(a + d) = C - (C v + S s)    sin(a + d) = S + (C s - S v)    s = sin d, v = 1 - cos d
 // where a few terms of the series are exact to the last bit.
 #include "stepper/trig.h"
@@ -25,7 +26,8 @@ static const uint32_t quarter[65] = {
     2146836866u, 2147483648u,
 };
 
-// The upper half of the product. The 64-bit product of a core without one is a call and costs twice as much.
+// The upper half of the product. The 64-bit product of a core without one is a call and costs twice
+// as much.
 static inline uint32_t upper_product(uint32_t a, uint32_t b) {
     uint32_t low = (a & 0xffff) * (b & 0xffff);
     uint32_t middle = (a >> 16) * (b & 0xffff) + (low >> 16);
@@ -73,8 +75,8 @@ trig_t trig_sin_cos(uint32_t angle) {
 
 #define PER_RADIAN 0.15915494309189535 // turns
 
-// A guess that is at most 0.004 rad off; then the vector is turned back by it, and what is left of it is
-// small enough for the series of the arc sine.
+// A guess that is at most 0.004 rad off; then the vector is turned back by it, and what is left of
+// it is small enough for the series of the arc sine.
 double trig_angle(double x, double y) {
     double ax = fabs(x);
     double ay = fabs(y);

@@ -14,8 +14,8 @@ typedef struct {
 
 trig_t trig_sin_cos(uint32_t angle);
 
-// The angle of the vector (x, y), which has some length, in turns: -0.5..0.5, counter-clockwise from x.
-// Error below 4e-10; small angles keep their relative precision.
+// The angle of the vector (x, y), which has some length, in turns: -0.5..0.5, counter-clockwise
+// from x. Error below 4e-10; small angles keep their relative precision.
 double trig_angle(double x, double y);
 
 #endif

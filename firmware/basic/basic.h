@@ -78,8 +78,8 @@ typedef struct {
     double fallback;  // with BASIC_ARG_DEFAULT, NUMBER and INTEGER
     const char *unit; // "mm", "mm/s^2"; NULL: none
     // Words with a bar between, e.g. "X|Y|Z|A". CHOICE: what there is to choose from. NUMBER and
-    // INTEGER: words, + and - among them, that may stand instead of the number; `text` and `integer`
-    // are then as for a CHOICE, and `text` is empty for a number.
+    // INTEGER: words, + and - among them, that may stand instead of the number; `text` and
+    // `integer` are then as for a CHOICE, and `text` is empty for a number.
     const char *choices;
     const char *help; // a short sentence without a full stop
 } basic_arg_spec_t;

@@ -11,7 +11,7 @@
 #include "hal/hal.h"
 #include "hal/hal_io.h"
 
-// ---- What a pin is used for ----------------------------------------------------------------------
+// ---- What a pin is used for ---------------------------------------------------------------------
 // Errors of all: no such pin, or it belongs to another part of the firmware (the message names it).
 // A pin that belongs to the program already changes its use.
 
@@ -40,7 +40,7 @@ err_t io_set_pwm(unsigned gpio, unsigned output);
 // All pins of the program back to what they are after reset.
 void io_reset(void);
 
-// ---- Values --------------------------------------------------------------------------------------
+// ---- Values -------------------------------------------------------------------------------------
 
 typedef struct {
     bool is_whole;
@@ -66,7 +66,7 @@ double io_temperature(void);
 #define IO_REFERENCE_VOLTS 3.3
 void io_set_reference(double volts);
 
-// ---- Pulses --------------------------------------------------------------------------------------
+// ---- Pulses -------------------------------------------------------------------------------------
 
 #define IO_PULSES 8
 #define IO_PULSE_WAIT_MS 3.0 // shorter pulses are over when the call returns
@@ -76,7 +76,7 @@ void io_set_reference(double volts);
 // not an output; IO_PULSES under way.
 err_t io_pulse(unsigned gpio, double ms);
 
-// ---- PWM -----------------------------------------------------------------------------------------
+// ---- PWM ----------------------------------------------------------------------------------------
 
 #define IO_SERVO_MIN (-20.0)
 #define IO_SERVO_MAX 120.0
@@ -101,7 +101,7 @@ err_t io_pwm_sync(uint32_t slices, const double percent[HAL_PWM_SLICES]);
 // Outputs low; the pins stay the slice's.
 void io_pwm_off(unsigned slice);
 
-// ---- Changes -------------------------------------------------------------------------------------
+// ---- Changes ------------------------------------------------------------------------------------
 
 // Pins of io_set_interrupt() that had an edge since the last call. Costs next to nothing if there
 // are none of those; for the background hook.

@@ -7,8 +7,8 @@
 #include "io.h"
 #include "io_pins.h"
 
-// A pin belongs to a port and has a role there by its number: blocks of `block` pins go to the ports
-// in turn, and the remainder of `roles` is the role.
+// A pin belongs to a port and has a role there by its number: blocks of `block` pins go to the
+// ports in turn, and the remainder of `roles` is the role.
 typedef struct {
     const char *name;
     uint8_t use; // io_pins_use_t
@@ -49,7 +49,7 @@ static unsigned gpio_of(io_bus_t bus, unsigned index) {
     return buses[bus].gpios[index] - 1u;
 }
 
-// ---- Pins ----------------------------------------------------------------------------------------
+// ---- Pins ---------------------------------------------------------------------------------------
 
 static err_t check_pin(const row_t *row, unsigned index, unsigned gpio) {
     err_t err = io_pins_check(gpio);
@@ -117,7 +117,7 @@ void io_bus_forget(unsigned gpio) {
     }
 }
 
-// ---- Open and closed -----------------------------------------------------------------------------
+// ---- Open and closed ----------------------------------------------------------------------------
 
 static err_t check_closed(io_bus_t bus) {
     if (buses[bus].gpios[0] == 0) {

@@ -37,7 +37,7 @@ static unsigned index_of(const count_t *count) {
     return (unsigned)(count - counts);
 }
 
-// ---- Gates ---------------------------------------------------------------------------------------
+// ---- Gates --------------------------------------------------------------------------------------
 
 uint64_t io_count_next_us(void) {
     uint64_t next_us = UINT64_MAX;
@@ -68,7 +68,7 @@ void io_count_run(uint64_t now_us) {
     }
 }
 
-// ---- Start and end -------------------------------------------------------------------------------
+// ---- Start and end ------------------------------------------------------------------------------
 
 void io_count_stop(unsigned gpio) {
     count_t *count = find(gpio);
@@ -142,7 +142,7 @@ err_t io_set_period(unsigned gpio, uint32_t periods) {
     return err;
 }
 
-// ---- Readings ------------------------------------------------------------------------------------
+// ---- Readings -----------------------------------------------------------------------------------
 
 // The gate closes some microseconds late: what those add to a long gate would only look like a
 // strange frequency. If it was held up for longer, it counts as it was.

@@ -23,7 +23,7 @@ static struct {
     bool running; // a deferred one is only set up
 } slices[HAL_PWM_SLICES];
 
-// ---- Pins ----------------------------------------------------------------------------------------
+// ---- Pins ---------------------------------------------------------------------------------------
 
 static const char *output_name(unsigned output) {
     static char name[] = "PWM0A";
@@ -103,7 +103,7 @@ void io_slices_remove(unsigned gpio) {
     }
 }
 
-// ---- Frequency -----------------------------------------------------------------------------------
+// ---- Frequency ----------------------------------------------------------------------------------
 
 double io_slices_lowest_hz(uint32_t clock_hz) {
     return (double)clock_hz * 16.0 / ((double)DIVIDER_MAX * COUNTS_MAX);
@@ -147,7 +147,7 @@ double io_slices_divide(uint32_t clock_hz, double frequency_hz, bool phase_corre
     return (double)clock_hz * 16.0 / ((double)best * best_counts) / (phase_correct ? 2.0 : 1.0);
 }
 
-// ---- Settings ------------------------------------------------------------------------------------
+// ---- Settings -----------------------------------------------------------------------------------
 
 static void set_level(hal_pwm_t *pwm, unsigned channel, double percent) {
     double part = (percent < 0.0 ? -percent : percent) / 100.0;

@@ -1,6 +1,5 @@
-// For the self-tests of tools/audit/tick.py and stack.py: one tick without a fault, and one for each fault
-// that they have to find.
-// Linked by tick_faults.ld; never run.
+// For the self-tests of tools/audit/tick.py and stack.py: one tick without a fault, and one for
+// each fault that they have to find. Linked by tick_faults.ld; never run.
 #include <stdint.h>
 
 #define RAM __attribute__((noinline, section(".time_critical")))

@@ -117,8 +117,8 @@ static void add_move(words_t *words, fuzz_gcode_line_t *line, const fuzz_gcode_m
     line->kind = line->axes != 0 ? FUZZ_GCODE_MOVE : FUZZ_GCODE_NOTHING;
 }
 
-// Some quarter turns about a centre in thousandths end in thousandths. Relative mode only: where the machine
-// stands after a stop may have no such coordinates.
+// Some quarter turns about a centre in thousandths end in thousandths. Relative mode only: where
+// the machine stands after a stop may have no such coordinates.
 static void add_arc(words_t *words, fuzz_gcode_line_t *line) {
     bool clockwise = fuzz_random_percent(50);
     int centre[2] = {fuzz_random_between(10, 3000), fuzz_random_between(-3000, -10)};

@@ -36,7 +36,8 @@ void fuzz_machine_check_pulses(void);
 // The position was set, not moved to: from here on pulses count anew.
 void fuzz_machine_rebase(void);
 
-// Steps are being made, or time has to pass before they are; not a machine that is held at a standstill.
+// Steps are being made, or time has to pass before they are; not a machine that is held at a
+// standstill.
 bool fuzz_machine_is_moving(void);
 
 // Waits until motion has ended and checks that it ended exactly on the target. Stops it in a

@@ -1,6 +1,7 @@
-// Programs from a grammar. Its statements are data, in fuzz_grammar.c: templates in which {x} stands
-// for a piece that is chosen anew, most of them as the place wants them, some not. Functions come
-// from the language's own table, product commands from theirs, so new ones take part by themselves.
+// Programs from a grammar. Its statements are data, in fuzz_grammar.c: templates in which {x}
+// stands for a piece that is chosen anew, most of them as the place wants them, some not. Functions
+// come from the language's own table, product commands from theirs, so new ones take part by
+// themselves.
 #include "fuzz_program.h"
 
 #include <string.h>

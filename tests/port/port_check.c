@@ -1,6 +1,6 @@
-// A firmware without motion and language, to test firmware/port/rp2 by itself: a letter on the console makes
-// it try one thing and print what came of it. Run in the emulator by test_rp2_port.py.
-// Contexts: hal_on_tick() tick, hal_on_governor() governor, all else main.
+// A firmware without motion and language, to test firmware/port/rp2 by itself: a letter on the
+// console makes it try one thing and print what came of it. Run in the emulator by
+// test_rp2_port.py. Contexts: hal_on_tick() tick, hal_on_governor() governor, all else main.
 #include "hal/hal.h"
 
 #include <string.h>
@@ -85,8 +85,8 @@ static void check_tick(void) {
     say_numbers("tick", first, ticks, hal_tick_running());
 }
 
-// Requests from main come at once, several while locked come as one at the unlock, one from the tick comes
-// after it.
+// Requests from main come at once, several while locked come as one at the unlock, one from the
+// tick comes after it.
 static void check_governor(void) {
     governor_calls = 0;
     hal_governor_request();

@@ -10,7 +10,8 @@
 // Starts BASIC with nobody at the other end of the console. Once in a process.
 void commands_start(void);
 
-// Carries out a line of BASIC. An error is ERR_ARGUMENT, whatever it is; see commands_refused_for().
+// Carries out a line of BASIC. An error is ERR_ARGUMENT, whatever it is; see
+// commands_refused_for().
 err_t command(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 // The same; it must be accepted.

@@ -11,11 +11,9 @@
 
 typedef struct {
     uint64_t seed;
-    bool
-        straight; // all motion along one line: no corners but reversals, so acceleration can be judged
-    bool calm;    // nothing that drops the queue: the end is known from the start
-    bool
-        curved; // arcs and rounded corners: the number of steps on the way is not known, nor that of blocks
+    bool straight; // all motion along one line, reversals too: acceleration can be judged
+    bool calm;     // nothing that drops the queue: the end is known from the start
+    bool curved;   // arcs and rounded corners: nobody knows the number of steps, nor that of blocks
     int direction[AXIS_COUNT];
     int place[AXIS_COUNT]; // hundredths of a unit, where the last move ends
     bool place_known;      // false: the machine was stopped between two hundredths

@@ -1,6 +1,6 @@
-// The instrumentation is that of gcc's thread sanitizer, whose runtime is not linked: what the compiler
-// calls before each access is below. Accesses to local variables that never leave their function
-// are not among them; they cannot be part of a race.
+// The instrumentation is that of gcc's thread sanitizer, whose runtime is not linked: what the
+// compiler calls before each access is below. Accesses to local variables that never leave their
+// function are not among them; they cannot be part of a race.
 #include "preempt.h"
 
 #include <string.h>
@@ -12,8 +12,8 @@
 #include "preempt_locks.h"
 
 #define SITES_MAX 64
-// The governor and what locks it may take this many ticks in one go, and a third of the time in the long
-// run. The segment ring has to ride out no more.
+// The governor and what locks it may take this many ticks in one go, and a third of the time in the
+// long run. The segment ring has to ride out no more.
 #define BUSY_TICKS_MAX 50
 #define TICK_NS 10000u
 
@@ -62,7 +62,8 @@ void preempt_do_soon(void (*action)(void)) {
     preempt.action_in = 1 + below(3000);
 }
 
-// The governor and what locks it have to be done in time, so interrupts cannot stretch them for ever.
+// The governor and what locks it have to be done in time, so interrupts cannot stretch them for
+// ever.
 static bool may_take_longer(void) {
     uint64_t now_ns = host_clock_now_ns();
     if (preempt.busy_until_ns < now_ns) {
@@ -116,7 +117,7 @@ static void on_access(void) {
     }
 }
 
-// ---- Locks ---------------------------------------------------------------------------------------
+// ---- Locks --------------------------------------------------------------------------------------
 
 void preempt_plant_unlocked(const char *function) {
     preempt.unlocked = function;
@@ -137,7 +138,7 @@ void preempt_lock(const char *function) {
     }
 }
 
-// ---- What the compiler calls ---------------------------------------------------------------------
+// ---- What the compiler calls --------------------------------------------------------------------
 
 void __tsan_init(void) {}
 

@@ -1,4 +1,5 @@
-// Included before each file under test: its locks of the governor get the name of the function they are in.
+// Included before each file under test: its locks of the governor get the name of the function they
+// are in.
 #ifndef PREEMPT_LOCKS_H
 #define PREEMPT_LOCKS_H
 

@@ -77,7 +77,8 @@ static void live(uint64_t seed) {
     _exit(0);
 }
 
-// Each session in a process of its own: it can be repeated alone, and a race may leave anything behind.
+// Each session in a process of its own: it can be repeated alone, and a race may leave anything
+// behind.
 static bool run_session(uint64_t seed) {
     fflush(stdout);
     pid_t child = fork();

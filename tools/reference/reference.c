@@ -1,5 +1,5 @@
-// Prints docs/reference.md from the command rows. Built for the host with all parts; `make reference`
-// writes the page and a test compares it. Context: a program of its own.
+// Prints docs/reference.md from the command rows. Built for the host with all parts; `make
+// reference` writes the page and a test compares it. Context: a program of its own.
 #include <stdio.h>
 #include <string.h>
 

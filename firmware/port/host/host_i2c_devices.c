@@ -5,7 +5,7 @@
 #include "host_clock.h"
 #include "host_i2c.h"
 
-// ---- Memory --------------------------------------------------------------------------------------
+// ---- Memory -------------------------------------------------------------------------------------
 
 #define MEMORY_SIZE 4096u
 #define PAGE_SIZE 32u           // a write goes on at the start of its page
@@ -48,7 +48,7 @@ static void memory_stop(unsigned port, uint64_t now_ns) {
     }
 }
 
-// ---- Thermometer ---------------------------------------------------------------------------------
+// ---- Thermometer --------------------------------------------------------------------------------
 
 #define REGISTERS 4u        // temperature, which cannot be written, configuration, two limits
 #define TEMPERATURE 0x1980u // 25.5 degrees, in 1/256
@@ -82,7 +82,7 @@ static void thermometer_stop(unsigned port, uint64_t now_ns) {
     thermometers[port].next = 0;
 }
 
-// ---- All -----------------------------------------------------------------------------------------
+// ---- All ----------------------------------------------------------------------------------------
 
 static const host_i2c_device_t devices[] = {
     {.address = 0x50,

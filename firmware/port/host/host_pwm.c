@@ -23,7 +23,7 @@ uint32_t hal_clock_hz(void) {
     return CLOCK_HZ;
 }
 
-// ---- One slice -----------------------------------------------------------------------------------
+// ---- One slice ----------------------------------------------------------------------------------
 
 static uint32_t period_of(unsigned slice) {
     return (slices[slice].pwm.top + 1u) * (slices[slice].pwm.phase_correct ? 2u : 1u);
@@ -69,7 +69,7 @@ static uint64_t next_edge_ns(unsigned gpio, uint64_t time_ns) {
     return time_of(slice, next);
 }
 
-// ---- The trace -----------------------------------------------------------------------------------
+// ---- The trace ----------------------------------------------------------------------------------
 
 static void show(uint64_t time_ns, uint32_t mask) {
     for (uint32_t rest = mask; rest != 0; rest &= rest - 1) {
@@ -110,7 +110,7 @@ static void after_change(void) {
     show(host_clock_now_ns(), pins);
 }
 
-// ---- Pins ----------------------------------------------------------------------------------------
+// ---- Pins ---------------------------------------------------------------------------------------
 
 void host_pwm_add(unsigned gpio) {
     before_change();
@@ -143,7 +143,7 @@ uint32_t host_pwm_levels(void) {
     return levels;
 }
 
-// ---- The seam ------------------------------------------------------------------------------------
+// ---- The seam -----------------------------------------------------------------------------------
 
 // The counter goes on from where it stands, or from 0 if that is beyond the new top.
 static void anchor(unsigned slice) {

@@ -89,7 +89,7 @@ size_t hal_serial_write(unsigned port, const uint8_t *bytes, size_t size) {
     return count;
 }
 
-// ---- News ----------------------------------------------------------------------------------------
+// ---- News ---------------------------------------------------------------------------------------
 
 uint64_t host_serial_next_ns(void) {
     uint64_t next_ns = HOST_CLOCK_NEVER;

@@ -1,4 +1,5 @@
-// The arrival of bytes at the simulated serial ports, which is news for the main loop. Context: main.
+// The arrival of bytes at the simulated serial ports, which is news for the main loop. Context:
+// main.
 #ifndef HOST_SERIAL_H
 #define HOST_SERIAL_H
 

@@ -1,5 +1,5 @@
-// Simulates NOR flash: erasing sets, programming only clears bits; and a power cut in the middle of it.
-// Context: main.
+// Simulates NOR flash: erasing sets, programming only clears bits; and a power cut in the middle of
+// it. Context: main.
 #include "host_storage.h"
 
 #include <errno.h>
@@ -86,8 +86,8 @@ void host_storage_cut(unsigned writes, host_storage_cut_t cut) {
     storage.cut = cut;
 }
 
-// The write at hand is the one in which the power goes. What a torn one leaves behind is different in each
-// byte, and the same in each run.
+// The write at hand is the one in which the power goes. What a torn one leaves behind is different
+// in each byte, and the same in each run.
 static bool is_cut(void) {
     return storage.writes_left != 0 && --storage.writes_left == 0;
 }

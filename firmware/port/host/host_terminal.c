@@ -27,8 +27,8 @@ bool host_terminal_is_raw(void) {
     return terminal.is_raw != 0;
 }
 
-// Puts the action back that was there before (a sanitizer has one) and leaves the rest to it: a fault
-// repeats itself on return, a signal that somebody sent has to be sent again.
+// Puts the action back that was there before (a sanitizer has one) and leaves the rest to it: a
+// fault repeats itself on return, a signal that somebody sent has to be sent again.
 static void on_crash(int signal_number, siginfo_t *info, void *context) {
     (void)context;
     host_terminal_restore();

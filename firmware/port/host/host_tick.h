@@ -23,10 +23,10 @@ typedef enum {
 // Whose code is running. Context: any.
 host_tick_context_t host_tick_context(void);
 
-// What happens to code into which a tick comes, for tests of races: the next tick is carried out now,
-// time jumps there, and behind it the governor has its turn if it was asked for, unless it is locked or
-// is the code that was interrupted. No effect in the tick itself and while the tick is stopped. Input
-// events are not looked at. Context: any.
+// What happens to code into which a tick comes, for tests of races: the next tick is carried out
+// now, time jumps there, and behind it the governor has its turn if it was asked for, unless it is
+// locked or is the code that was interrupted. No effect in the tick itself and while the tick is
+// stopped. Input events are not looked at. Context: any.
 void host_tick_interrupt(void);
 
 #endif

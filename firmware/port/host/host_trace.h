@@ -18,7 +18,8 @@ void host_trace_edges(uint64_t time_ns, uint32_t changed, uint32_t levels);
 
 bool host_trace_is_open(void);
 
-// One row as it is; no effect while not recording. For host_pwm.c, whose edges are found when they are wanted.
+// One row as it is; no effect while not recording. For host_pwm.c, whose edges are found when they
+// are wanted.
 void host_trace_row(uint64_t time_ns, unsigned gpio, bool level);
 
 // Writes what is still buffered. No effect if not recording. Context: main.

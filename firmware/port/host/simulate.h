@@ -53,8 +53,8 @@ typedef struct {
     simulate_fault_t fault;       // may be changed at any time
 } simulate_switch_t;
 
-// Drives the pin from now on; the axis has to be attached before. The switch must stay valid. False if
-// there is no room.
+// Drives the pin from now on; the axis has to be attached before. The switch must stay valid. False
+// if there is no room.
 bool simulate_switch_attach(simulate_switch_t *limit);
 
 #endif

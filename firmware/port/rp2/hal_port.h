@@ -1,4 +1,5 @@
-// The inline part of the seam, RP2040 and RP2350: what the tick needs, each a few cycles and no call.
+// The inline part of the seam, RP2040 and RP2350: what the tick needs, each a few cycles and no
+// call.
 #ifndef HAL_PORT_H
 #define HAL_PORT_H
 
@@ -15,7 +16,7 @@
 // Places a function in RAM: it never waits for the flash.
 #define HAL_RAM_FUNC(name) __not_in_flash_func(name)
 
-// ---- Pins: single-cycle I/O -----------------------------------------------------------------------
+// ---- Pins: single-cycle I/O ---------------------------------------------------------------------
 
 static __force_inline void hal_pins_set(uint32_t mask) {
     sio_hw->gpio_set = mask;
@@ -29,7 +30,7 @@ static __force_inline uint32_t hal_pins_read(void) {
     return sio_hw->gpio_in;
 }
 
-// ---- Interrupt lines of the NVIC ------------------------------------------------------------------
+// ---- Interrupt lines of the NVIC ----------------------------------------------------------------
 // Register addresses from the Armv6-M and Armv8-M architecture manuals; the same on both chips. The
 // SDK's functions forget a pending interrupt when they switch its line on; these do not.
 
@@ -39,7 +40,8 @@ static __force_inline uint32_t hal_pins_read(void) {
 #define RP2_NVIC_DISABLE 0xE180u
 #define RP2_NVIC_PEND 0xE200u
 
-// User interrupts: lines no peripheral is wired to. The first calls the governor, the second serves USB.
+// User interrupts: lines no peripheral is wired to. The first calls the governor, the second serves
+// USB.
 #define RP2_GOVERNOR_IRQ ((unsigned)FIRST_USER_IRQ)
 #define RP2_USB_IRQ ((unsigned)FIRST_USER_IRQ + 1u)
 
@@ -63,12 +65,12 @@ static __force_inline void rp2_irq_pend(unsigned irq) {
     __isb();
 }
 
-// ---- Waking the main loop -------------------------------------------------------------------------
+// ---- Waking the main loop -----------------------------------------------------------------------
 
 // Set by interrupts when something happened that main may be waiting for; cleared by hal_idle().
 extern volatile bool rp2_wake;
 
-// ---- Tick: SysTick at the highest priority --------------------------------------------------------
+// ---- Tick: SysTick at the highest priority ------------------------------------------------------
 
 static __force_inline bool hal_tick_running(void) {
     return (systick_hw->csr & ARM_CPU_PREFIXED(SYST_CSR_ENABLE_BITS)) != 0;
@@ -82,7 +84,7 @@ static __force_inline void hal_tick_stop(void) {
     rp2_wake = true;
 }
 
-// ---- Governor: a user interrupt at the lowest priority --------------------------------------------
+// ---- Governor: a user interrupt at the lowest priority ------------------------------------------
 
 static __force_inline void hal_governor_request(void) {
     rp2_irq_pend(RP2_GOVERNOR_IRQ);

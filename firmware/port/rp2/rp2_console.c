@@ -1,7 +1,7 @@
-// One console of two ways, USB serial and UART0. Input is merged, output goes to both. One of the two
-// leads: the one used last. Its speed is the console's speed; the other gets what it can take, so that a
-// terminal that does not read, or a slow one, does not hold up the one in use.
-// Contexts: main; rp2_console_on_usb_line() in the USB interrupt.
+// One console of two ways, USB serial and UART0. Input is merged, output goes to both. One of the
+// two leads: the one used last. Its speed is the console's speed; the other gets what it can take,
+// so that a terminal that does not read, or a slow one, does not hold up the one in use. Contexts:
+// main; rp2_console_on_usb_line() in the USB interrupt.
 #include "hal/hal.h"
 
 #include <string.h>
@@ -12,8 +12,8 @@
 
 static volatile bool usb_leads;
 
-// What was printed since the start, for the first terminal that comes over USB: it cannot have been there in
-// time. Held back only until someone uses the console.
+// What was printed since the start, for the first terminal that comes over USB: it cannot have been
+// there in time. Held back only until someone uses the console.
 static struct {
     uint8_t bytes[GREETING_SIZE];
     size_t length;

@@ -1,8 +1,8 @@
-// What must never happen: processor faults, the SDK's panic, and a main loop that hangs. Each restarts the
-// board at once, and the next start tells why. After a restart the pins are inputs with the chip's weak
-// pull-down, so a motor driver lets go if a resistor pulls its enable pin up (10 kOhm is strong enough).
-// The reason survives in the watchdog's scratch registers.
-// Context: any, except where said.
+// What must never happen: processor faults, the SDK's panic, and a main loop that hangs. Each
+// restarts the board at once, and the next start tells why. After a restart the pins are inputs
+// with the chip's weak pull-down, so a motor driver lets go if a resistor pulls its enable pin up
+// (10 kOhm is strong enough). The reason survives in the watchdog's scratch registers. Context:
+// any, except where said.
 #include "hal/hal.h"
 
 #include "hardware/structs/psm.h"

@@ -1,5 +1,5 @@
-// The governor's interrupt: a line of the NVIC that no peripheral uses, pended by software, below every
-// other interrupt. Context: main; governor_irq() is the governor's own.
+// The governor's interrupt: a line of the NVIC that no peripheral uses, pended by software, below
+// every other interrupt. Context: main; governor_irq() is the governor's own.
 #include "hal/hal.h"
 
 #include "hardware/irq.h"

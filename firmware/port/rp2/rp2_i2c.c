@@ -31,7 +31,7 @@ static i2c_hw_t *hw_of(unsigned port) {
     return i2c_get_hw(I2C_INSTANCE(port));
 }
 
-// ---- Lines ---------------------------------------------------------------------------------------
+// ---- Lines --------------------------------------------------------------------------------------
 
 // Low, or left to the pull-up.
 static void drive(unsigned gpio, bool low) {
@@ -85,7 +85,7 @@ void hal_i2c_abort(unsigned port) {
     set_up(port);
 }
 
-// ---- Transfers -----------------------------------------------------------------------------------
+// ---- Transfers ----------------------------------------------------------------------------------
 
 void hal_i2c_start(unsigned port, const hal_i2c_transfer_t *next) {
     i2c_hw_t *hw = hw_of(port);

@@ -1,8 +1,9 @@
 // Time, and sleeping until something happened. Context: main; on_alarm() in the timer's interrupt.
 //
 // No wake-up is lost: whoever has news for main is an interrupt and sets rp2_wake, and an interrupt
-// taken between our look at rp2_wake and the WFE leaves the core's event register set, so that WFE falls
-// through. A running tick wakes the core 100,000 times a second, but not main: that takes rp2_wake.
+// taken between our look at rp2_wake and the WFE leaves the core's event register set, so that WFE
+// falls through. A running tick wakes the core 100,000 times a second, but not main: that takes
+// rp2_wake.
 #include "hal/hal.h"
 
 #include "hardware/timer.h"

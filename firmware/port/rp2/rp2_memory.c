@@ -1,7 +1,7 @@
-// Memory that the linker gives to no variable. Interrupts have the core's main stack, 4 KB of memory that no
-// one else uses; main() gets one of its own at the end of RAM, large enough for the compiler's recursion,
-// on the process stack pointer. All that is left below it is BASIC's. rp2_memory.ld says what lies where.
-// Context: start-up.
+// Memory that the linker gives to no variable. Interrupts have the core's main stack, 4 KB of
+// memory that no one else uses; main() gets one of its own at the end of RAM, large enough for the
+// compiler's recursion, on the process stack pointer. All that is left below it is BASIC's.
+// rp2_memory.ld says what lies where. Context: start-up.
 #include "hal/hal.h"
 
 #include "hardware/structs/mpu.h"

@@ -1,5 +1,5 @@
-// Pins as plain inputs and outputs. The UART console's pins go to whoever wants them, and come back to
-// the console when both are free again. Context: main.
+// Pins as plain inputs and outputs. The UART console's pins go to whoever wants them, and come back
+// to the console when both are free again. Context: main.
 #include "hal/hal.h"
 #include "hal/hal_io.h"
 

@@ -12,14 +12,14 @@
 #define RP2_PRIORITY_TICK 0x00u
 #define RP2_PRIORITY_GOVERNOR 0xC0u
 
-// ---- Start-up, called by hal_init() ---------------------------------------------------------------
+// ---- Start-up, called by hal_init() -------------------------------------------------------------
 void rp2_tick_init(void);
 void rp2_governor_init(void);
 void rp2_idle_init(void);
 void rp2_alarm_init(void);
 void rp2_console_init(void);
 
-// ---- Faults ---------------------------------------------------------------------------------------
+// ---- Faults -------------------------------------------------------------------------------------
 
 // Takes note of why the board restarted, and starts the watchdog.
 void rp2_fault_init(void);
@@ -50,7 +50,7 @@ _Noreturn void rp2_fault_panic(const char *format, ...);
 // The HardFault handler; the vector table has it by this name.
 void isr_hardfault(void);
 
-// ---- Memory ---------------------------------------------------------------------------------------
+// ---- Memory -------------------------------------------------------------------------------------
 
 // Makes running over the end of main's stack a fault.
 void rp2_stack_guard(void);
@@ -58,12 +58,12 @@ void rp2_stack_guard(void);
 // Addresses the linker fills in (rp2_memory.ld): the end of all variables, and main's stack.
 extern uint8_t rp2_variables_end[], rp2_main_stack[], rp2_main_stack_top[];
 
-// ---- Console --------------------------------------------------------------------------------------
+// ---- Console ------------------------------------------------------------------------------------
 
 // Set by interrupts when console input came; cleared by hal_statement().
 extern volatile bool rp2_input_came;
 
-// ---- UART console ---------------------------------------------------------------------------------
+// ---- UART console -------------------------------------------------------------------------------
 
 void rp2_uart_start(void);
 void rp2_uart_stop(void);
@@ -79,7 +79,7 @@ bool rp2_uart_has_pin(unsigned gpio);
 void rp2_pins_take_uart(void);
 void rp2_pins_give_uart_back(void);
 
-// ---- USB console ----------------------------------------------------------------------------------
+// ---- USB console --------------------------------------------------------------------------------
 
 void rp2_usb_start(void);
 bool rp2_usb_connected(void); // a terminal has the port open

@@ -29,8 +29,8 @@ bool hal_storage_is_writable(void) {
     return writable;
 }
 
-// While the chip is written nothing may run from it, not even an interrupt: they all wait. A tick could
-// not, so the core stops it or refuses.
+// While the chip is written nothing may run from it, not even an interrupt: they all wait. A tick
+// could not, so the core stops it or refuses.
 bool hal_storage_erase(uint32_t offset) {
     if (offset % HAL_STORAGE_SECTOR != 0 || offset >= HAL_STORAGE_SIZE || !hal_on_storage_begin()) {
         return false;

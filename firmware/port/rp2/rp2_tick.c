@@ -1,5 +1,6 @@
-// The 100 kHz tick from SysTick: the core clock divided exactly, nothing to acknowledge, and the only
-// interrupt at the highest priority. Its vector is hal_on_tick() itself. Context: main, governor.
+// The 100 kHz tick from SysTick: the core clock divided exactly, nothing to acknowledge, and the
+// only interrupt at the highest priority. Its vector is hal_on_tick() itself. Context: main,
+// governor.
 #include "hal/hal.h"
 
 #include "hardware/clocks.h"

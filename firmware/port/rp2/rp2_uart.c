@@ -17,8 +17,8 @@
 #define TX_SIZE 512u
 #define RX_SIZE 1024u // 0.09 s of input while main is busy
 #define RX_ERROR_BITS (UART_UARTDR_BE_BITS | UART_UARTDR_PE_BITS | UART_UARTDR_FE_BITS)
-// Stands in the input where bytes were lost. No command contains it, so the line is refused: without one
-// digit it would mean something else.
+// Stands in the input where bytes were lost. No command contains it, so the line is refused:
+// without one digit it would mean something else.
 #define LOST_BYTE 0xFFu
 
 static struct {
@@ -92,7 +92,8 @@ void rp2_uart_start(void) {
     uart.running = true;
 }
 
-// What was printed still goes out, and a word of farewell: who sits at this port should not have to wonder.
+// What was printed still goes out, and a word of farewell: who sits at this port should not have to
+// wonder.
 static void send_farewell(void) {
     static const char text[] = "\r\nGP0 and GP1 are taken: the console goes on over USB only\r\n";
     while (rp2_uart_write_room() < sizeof text) {

@@ -1,6 +1,7 @@
-// The console's USB serial port. The SDK's stdio_usb brings the descriptors, the low-priority interrupt
-// that serves TinyUSB, and picotool's reset; bytes pass by its stdio and go in blocks straight to and from
-// TinyUSB's buffers, with that interrupt held off meanwhile. Contexts: main; tud_...() in the interrupt.
+// The console's USB serial port. The SDK's stdio_usb brings the descriptors, the low-priority
+// interrupt that serves TinyUSB, and picotool's reset; bytes pass by its stdio and go in blocks
+// straight to and from TinyUSB's buffers, with that interrupt held off meanwhile. Contexts: main;
+// tud_...() in the interrupt.
 #include "hal/hal.h"
 
 #include "hardware/timer.h"
@@ -14,8 +15,8 @@
 #define SILENT_US                                                                                  \
     500000u // a terminal that shows itself only by what it sends may not read for so long
 
-// Most programs raise DTR while they have the port open. Some do not (.NET's default): such a terminal is
-// there once it has sent something, until it no longer takes what is printed.
+// Most programs raise DTR while they have the port open. Some do not (.NET's default): such a
+// terminal is there once it has sent something, until it no longer takes what is printed.
 static struct {
     volatile bool dtr;
     volatile bool heard;
@@ -59,7 +60,7 @@ size_t rp2_usb_write(const uint8_t *bytes, size_t size) {
     return count;
 }
 
-// ---- Called by TinyUSB ----------------------------------------------------------------------------
+// ---- Called by TinyUSB --------------------------------------------------------------------------
 
 void tud_mount_cb(void) {
     terminal.dtr = terminal.heard = false; // plugged in again: who has the port open will say so
@@ -82,7 +83,8 @@ void tud_cdc_tx_complete_cb(uint8_t itf) {
     rp2_wake = true;
 }
 
-// Also comes when only RTS changes, as the second half of opening a port: output must not be lost to that.
+// Also comes when only RTS changes, as the second half of opening a port: output must not be lost
+// to that.
 void tud_cdc_line_state_cb(uint8_t itf, bool dtr, bool rts) {
     (void)itf;
     (void)rts;

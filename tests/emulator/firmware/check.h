@@ -1,4 +1,5 @@
-// The commands of the bench's test program. Each prints its results as lines of words; main.c ends them with "> ".
+// The commands of the bench's test program. Each prints its results as lines of words; main.c ends
+// them with "> ".
 #ifndef CHECK_H
 #define CHECK_H
 

@@ -1,5 +1,5 @@
-// Instructions whose flags emulators get wrong, against results computed in C from the architecture's definitions.
-// Context: main.
+// Instructions whose flags emulators get wrong, against results computed in C from the
+// architecture's definitions. Context: main.
 #include <stdio.h>
 
 #include "pico/stdlib.h"

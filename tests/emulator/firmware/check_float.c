@@ -1,5 +1,6 @@
-// Floating point by the SDK's routines on pseudo-random operands. Prints operands and results as bits, for the host
-// to compare with its own: host and board must round alike, or their step trains would differ. Context: main.
+// Floating point by the SDK's routines on pseudo-random operands. Prints operands and results as
+// bits, for the host to compare with its own: host and board must round alike, or their step trains
+// would differ. Context: main.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -104,7 +105,8 @@ static void double_pair(bool show) {
     }
 }
 
-// `count` pairs of each kind: a hash after every 64, or all results if `count` is negative (then -count pairs).
+// `count` pairs of each kind: a hash after every 64, or all results if `count` is negative (then
+// -count pairs).
 void check_float(int count) {
     bool show = count < 0;
     state = 0x9E3779B97F4A7C15ull;

@@ -1,5 +1,5 @@
-// A user interrupt that software pends, below SysTick and USB: the way the firmware runs its governor.
-// Context: main and the handler.
+// A user interrupt that software pends, below SysTick and USB: the way the firmware runs its
+// governor. Context: main and the handler.
 #include <stdio.h>
 
 #include "hardware/gpio.h"

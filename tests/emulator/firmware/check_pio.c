@@ -1,5 +1,5 @@
-// PIO against the system clock: a square wave by a fractional divider, and words through the FIFO to a waiting
-// machine. Context: main.
+// PIO against the system clock: a square wave by a fractional divider, and words through the FIFO
+// to a waiting machine. Context: main.
 #include <stdio.h>
 
 #include "hardware/gpio.h"

@@ -50,7 +50,8 @@ static void clear_event(void) {
     __wfe();
 }
 
-// An interrupt between looking and sleeping leaves its event behind: WFE must not wait for the next one.
+// An interrupt between looking and sleeping leaves its event behind: WFE must not wait for the next
+// one.
 static void lost_wakeup(void) {
     clear_event();
     uint32_t before = alarms;

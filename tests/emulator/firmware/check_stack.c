@@ -1,4 +1,5 @@
-// Two stacks: thread code on the process stack, exceptions on the main stack. Context: main and an interrupt.
+// Two stacks: thread code on the process stack, exceptions on the main stack. Context: main and an
+// interrupt.
 #include <stdio.h>
 
 #include "hardware/irq.h"

@@ -1,4 +1,5 @@
-// SysTick as a 100 kHz tick, the way the firmware uses it. Context: main, and on_tick() at the highest priority.
+// SysTick as a 100 kHz tick, the way the firmware uses it. Context: main, and on_tick() at the
+// highest priority.
 #include <stdio.h>
 
 #include "hardware/exception.h"

@@ -1,5 +1,5 @@
-// Cycles of instructions, counted by SysTick at the core clock in code that runs from RAM, and hardware alarms.
-// Context: main.
+// Cycles of instructions, counted by SysTick at the core clock in code that runs from RAM, and
+// hardware alarms. Context: main.
 #include <stdio.h>
 
 #include "hardware/structs/sio.h"

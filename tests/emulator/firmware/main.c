@@ -1,4 +1,5 @@
-// The prompt of the bench's test program: a letter selects the check, a number behind it is its argument.
+// The prompt of the bench's test program: a letter selects the check, a number behind it is its
+// argument.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

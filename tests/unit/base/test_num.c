@@ -1,4 +1,5 @@
-// Numerals: what is taken, where reading stops, and that the value is the one strtod() gives, bit for bit.
+// Numerals: what is taken, where reading stops, and that the value is the one strtod() gives, bit
+// for bit.
 #include "base/base.h"
 
 #include <math.h>
@@ -116,7 +117,7 @@ static void test_very_long_numerals(void) {
     assert_parses(text, 999, 3.0);
 }
 
-// ---- Random numerals against the C library --------------------------------------------------------
+// ---- Random numerals against the C library ------------------------------------------------------
 
 static uint64_t random_state = 0x9E3779B97F4A7C15u;
 

@@ -1,5 +1,5 @@
-// Numbers as text: agreement with the C library wherever it rounds the same way, that is everywhere but at
-// exact ties, which it rounds to even and we away from zero.
+// Numbers as text: agreement with the C library wherever it rounds the same way, that is everywhere
+// but at exact ties, which it rounds to even and we away from zero.
 #include "base/base.h"
 
 #include <math.h>
@@ -76,7 +76,7 @@ static void test_not_numbers(void) {
     TEST_ASSERT_EQUAL_STRING("nan", fixed(nan(""), 2));
 }
 
-// ---- Random numbers against the C library --------------------------------------------------------
+// ---- Random numbers against the C library -------------------------------------------------------
 
 static uint64_t state = 88172645463325252u;
 
@@ -93,7 +93,8 @@ static double of_bits(uint64_t bits) {
     return isfinite(number) ? number : 1.0 / (double)(bits | 1);
 }
 
-// Any finite double, the smallest of all, and of the size people print: as they are typed, integers, ties.
+// Any finite double, the smallest of all, and of the size people print: as they are typed,
+// integers, ties.
 static double random_double(unsigned i) {
     uint64_t bits = next_random();
     switch (i % 6) {

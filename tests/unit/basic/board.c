@@ -135,7 +135,7 @@ const char *board_answer(const char *line) {
     return text;
 }
 
-// ---- The board -----------------------------------------------------------------------------------
+// ---- The board ----------------------------------------------------------------------------------
 
 // When somebody types again; UINT64_MAX: never.
 static uint64_t next_typing_us(void) {

@@ -29,7 +29,8 @@ void board_type_at(uint64_t time_us, const char *text);
 // What was shown since the last call; zero-terminated.
 const char *board_shown(void);
 
-// Runs the prompt on `text` until all of it is taken; returns what was shown, the last prompt included.
+// Runs the prompt on `text` until all of it is taken; returns what was shown, the last prompt
+// included.
 const char *board_session(const char *text);
 
 // What one line at the prompt prints, without its echo and the prompts. Valid until the next call.

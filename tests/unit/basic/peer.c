@@ -35,7 +35,7 @@ static unsigned crc16(const uint8_t *bytes, size_t size) { // by the definition:
     return remainder;
 }
 
-// ---- The peer as sender --------------------------------------------------------------------------
+// ---- The peer as sender -------------------------------------------------------------------------
 
 static bool fault_now(peer_fault_t fault) {
     bool now = peer.fault == fault && peer.block == peer.fault_block && !peer.done_fault;
@@ -140,7 +140,7 @@ void peer_hear_answers(const uint8_t *bytes, size_t size) {
     }
 }
 
-// ---- The peer as receiver ------------------------------------------------------------------------
+// ---- The peer as receiver -----------------------------------------------------------------------
 
 static void answer(uint8_t byte) {
     board_type((const char *)&byte, 1);

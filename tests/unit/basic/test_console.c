@@ -1,5 +1,5 @@
-// The console and the line editor: one write for a paste, notices while typing, Ctrl-C in every state, a
-// terminal that does not read; and the program in flash when writing fails.
+// The console and the line editor: one write for a paste, notices while typing, Ctrl-C in every
+// state, a terminal that does not read; and the program in flash when writing fails.
 #include <string.h>
 
 #include <unity.h>
@@ -118,7 +118,7 @@ static void test_a_notice_within_output(void) {
                              board_session("WARN\r"));
 }
 
-// ---- Keys ----------------------------------------------------------------------------------------
+// ---- Keys ---------------------------------------------------------------------------------------
 
 static void test_a_sequence_may_come_in_pieces(void) {
     board_type("PRINT 15", 8);
@@ -165,7 +165,7 @@ static void test_the_editor_leaves_a_paste_over_a_slow_line_as_it_is(void) {
     TEST_ASSERT_NOT_NULL(strstr(board_session(""), "> LIST\r\n  a\r\nb\r\n"));
 }
 
-// ---- Characters that act at once -----------------------------------------------------------------
+// ---- Characters that act at once ----------------------------------------------------------------
 
 static void test_a_control_acts_within_a_statement_of_a_program(void) {
     board.controllable = true;
@@ -252,7 +252,7 @@ static void test_nothing_acts_in_raw_mode(void) {
     TEST_ASSERT_EQUAL_UINT(1, board.controls);
 }
 
-// ---- The program in flash ------------------------------------------------------------------------
+// ---- The program in flash -----------------------------------------------------------------------
 
 #define PROGRAM(text) "AUTOSAVE\r" text "\r\x1a"
 

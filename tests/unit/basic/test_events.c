@@ -1,5 +1,5 @@
-// Interrupts of a program in virtual time: ticks to the microsecond and over hours, keys, events of the
-// product, what is cleared when, and the hooks.
+// Interrupts of a program in virtual time: ticks to the microsecond and over hours, keys, events of
+// the product, what is cleared when, and the hooks.
 #include <string.h>
 
 #include <unity.h>
@@ -67,7 +67,7 @@ static const char *run(const char *source) {
     return board_shown();
 }
 
-// ---- Ticks ---------------------------------------------------------------------------------------
+// ---- Ticks --------------------------------------------------------------------------------------
 
 static void test_a_tick_comes_on_time(void) {
     run("SETTICK 10, t\nMARK 0\nPAUSE 105\nSETTICK 0, 0\nPAUSE 100\nEND\n"
@@ -134,7 +134,7 @@ static void test_a_tick_stops_with_its_program(void) {
     TEST_ASSERT_EQUAL_UINT(4, marks.count);
 }
 
-// ---- Calls ---------------------------------------------------------------------------------------
+// ---- Calls --------------------------------------------------------------------------------------
 
 static void test_subs_of_events_take_turns_and_do_not_nest(void) {
     const char *shown = run("SETTICK 10, a\nSETTICK 10, b, 2\nPAUSE 35\nEND\n"
@@ -158,7 +158,7 @@ static void test_a_long_pause_with_ticks_and_an_error_text_takes_no_memory(void)
     TEST_ASSERT_EQUAL_STRING(" 100 10000\r\n", shown);
 }
 
-// ---- Keys ----------------------------------------------------------------------------------------
+// ---- Keys ---------------------------------------------------------------------------------------
 
 static void test_on_key_calls_until_the_key_is_read(void) {
     board_type_at(20000, "q");
@@ -184,7 +184,7 @@ static void test_the_key_is_input_again_at_the_prompt(void) {
     TEST_ASSERT_NOT_NULL(strstr(board_session("PRINT \"s\"\r"), "\r\ns\r\n"));
 }
 
-// ---- The product's -------------------------------------------------------------------------------
+// ---- The product's ------------------------------------------------------------------------------
 
 static void knock_at_20_ms(void) {
     static bool done;
@@ -233,7 +233,7 @@ static void test_the_argument_is_a_sub(void) {
     }
 }
 
-// ---- The hooks -----------------------------------------------------------------------------------
+// ---- The hooks ----------------------------------------------------------------------------------
 
 static void test_on_error_is_for_programs(void) {
     run("PRINT 1 / 0\n");

@@ -37,7 +37,7 @@ static uint32_t random_below(uint32_t limit) {
     return (random_state >> 8) % limit;
 }
 
-// ---- Blocks --------------------------------------------------------------------------------------
+// ---- Blocks -------------------------------------------------------------------------------------
 
 static size_t wanted;
 static uint8_t *got;
@@ -71,7 +71,7 @@ static void give_back(block_t *block) {
     block->place = NULL;
 }
 
-// ---- Tests ---------------------------------------------------------------------------------------
+// ---- Tests --------------------------------------------------------------------------------------
 
 static void test_a_hole_is_filled_first(void) {
     TEST_ASSERT_TRUE(try_take(&blocks[0], 100));

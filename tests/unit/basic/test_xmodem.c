@@ -27,7 +27,7 @@ void setUp(void) {
 }
 void tearDown(void) {}
 
-// ---- We receive ----------------------------------------------------------------------------------
+// ---- We receive ---------------------------------------------------------------------------------
 
 static err_t sink(const void *bytes, size_t size) {
     if (mine.full_at != 0 && mine.length + size > mine.full_at) {
@@ -150,7 +150,7 @@ static void test_a_sink_that_fails_cancels(void) {
     expect_failure("Disk full");
 }
 
-// ---- We send -------------------------------------------------------------------------------------
+// ---- We send ------------------------------------------------------------------------------------
 
 static size_t given;
 

@@ -1,4 +1,5 @@
-// The flash file system: what is written is there, also after a restart; bad input and a busy flash lose nothing.
+// The flash file system: what is written is there, also after a restart; bad input and a busy flash
+// lose nothing.
 #include <stdio.h>
 #include <string.h>
 #include <unity.h>
@@ -192,7 +193,7 @@ static void test_a_full_flash_keeps_what_is_there(void) {
     TEST_ASSERT_EQUAL_STRING("more", contents("keep"));
 }
 
-// ---- Motion --------------------------------------------------------------------------------------
+// ---- Motion -------------------------------------------------------------------------------------
 
 static void test_nothing_is_written_while_the_flash_is_busy_and_nothing_lost(void) {
     static char block[300];

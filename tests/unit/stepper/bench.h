@@ -1,5 +1,5 @@
-// A machine on the host port for tests of motion: four axes, each with a simulated motor that counts the
-// edges of its pins, and a watcher that notes the shortest times between edges.
+// A machine on the host port for tests of motion: four axes, each with a simulated motor that
+// counts the edges of its pins, and a watcher that notes the shortest times between edges.
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -22,7 +22,8 @@ extern bench_t bench;
 // The axes of bench_start(), and the pins of every bench.
 extern const stepper_axis_t bench_axes[AXIS_COUNT];
 
-// A fresh machine at home, armed: X, Y 80 steps/mm 6000 mm/min 500 mm/s^2; Z 400, 1200, 200; A 10, 36000, 2000.
+// A fresh machine at home, armed: X, Y 80 steps/mm 6000 mm/min 500 mm/s^2; Z 400, 1200, 200; A 10,
+// 36000, 2000.
 void bench_start(void);
 
 // The same, all axes with this configuration (pins are filled in) and a queue of `blocks`.
@@ -34,8 +35,8 @@ void bench_end(void);
 // A straight move of X, Y, Z, A; waits for room in the queue. `feed` 0: rapid.
 void bench_move(double x, double y, double z, double a, double feed);
 
-// Lets time pass until nothing moves; fails if that takes more than `limit_s` of virtual time. Returns
-// the time it took in seconds.
+// Lets time pass until nothing moves; fails if that takes more than `limit_s` of virtual time.
+// Returns the time it took in seconds.
 double bench_finish(double limit_s);
 
 // Lets this much time pass.

@@ -1,7 +1,8 @@
-// Feed hold and resume at every tenth tick of a program of three seconds, jerk-limited or not: nothing is
-// lost, limits are kept, the end is exact. This process goes along the program; at each moment a child
-// process holds, resumes and judges.  usage: hold_sweep trapezoid|scurve [EVERY_TICKS [hard|stop]], where the
-// last is a fault to plant: it brakes too hard, or stops instead of holding.
+// Feed hold and resume at every tenth tick of a program of three seconds, jerk-limited or not:
+// nothing is lost, limits are kept, the end is exact. This process goes along the program; at each
+// moment a child process holds, resumes and judges.  usage: hold_sweep trapezoid|scurve
+// [EVERY_TICKS [hard|stop]], where the last is a fault to plant: it brakes too hard, or stops
+// instead of holding.
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -22,16 +23,16 @@
 #define ACCELERATION 2000.0
 #define JERK 50000.0
 #define JUNCTION_MM 0.002
-// Speed of Y that the corners of the zigzag change at once: 100.4 degrees, so r = 1.78 times the deviation
-// and v^2 = ACCELERATION * r, twice v * sin(50.2 degrees).
+// Speed of Y that the corners of the zigzag change at once: 100.4 degrees, so r = 1.78 times the
+// deviation and v^2 = ACCELERATION * r, twice v * sin(50.2 degrees).
 #define CORNER_JUMP 4.1
 #define PARTS_MAX 16
 #define LOOK_BACK_NS                                                                               \
     10000000u           // limits are judged from that long before the hold: no longer than a dwell
 #define WHOLE_EVERY 40u // so many children go on to the end of the program
 
-// The program is made of parts that begin and end at rest. Behind one the machine is as it would have been
-// without a hold, so most children end there.
+// The program is made of parts that begin and end at rest. Behind one the machine is as it would
+// have been without a hold, so most children end there.
 typedef struct {
     uint32_t entries; // of the queue, up to the end of the part
     uint64_t pulses[AXIS_COUNT];
@@ -61,7 +62,7 @@ static _Noreturn void __attribute__((format(printf, 1, 2))) fail(const char *for
     _exit(1);
 }
 
-// ---- The program ---------------------------------------------------------------------------------
+// ---- The program --------------------------------------------------------------------------------
 
 static void go(double x, double y, double z, double a, double feed) {
     const double place[AXIS_COUNT] = {x, y, z, a};
@@ -138,7 +139,7 @@ static void start_program(void) {
     stepper_hold(false);
 }
 
-// ---- What must hold ------------------------------------------------------------------------------
+// ---- What must hold -----------------------------------------------------------------------------
 
 static uint32_t executed(void) {
     stepper_status_t status;
@@ -202,7 +203,7 @@ static void wait_for(uint32_t entries) {
     bench_wait_us(4000); // what the tick has been given already
 }
 
-// ---- Holds ---------------------------------------------------------------------------------------
+// ---- Holds --------------------------------------------------------------------------------------
 
 static void hold_and_resume(bool to_the_end) {
     double braking_s = SPEED / ACCELERATION + (sweep.scurve ? 2 * ACCELERATION / JERK : 0.0);

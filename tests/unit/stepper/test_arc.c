@@ -19,7 +19,7 @@ static double uniform(double low, double high) {
     return low + (high - low) * rand() / RAND_MAX;
 }
 
-// ---- The arc as it should be ---------------------------------------------------------------------
+// ---- The arc as it should be --------------------------------------------------------------------
 
 // Start, centre in machine coordinates, angles and radii of an arc; `from` is where it begins.
 typedef struct {
@@ -84,7 +84,8 @@ static double distance(const ideal_t *arc, double part) {
     return sqrt(square);
 }
 
-// Goes on from `part` to the place nearest to the motors; returns how far off they are there, in steps.
+// Goes on from `part` to the place nearest to the motors; returns how far off they are there, in
+// steps.
 static double track(const ideal_t *arc, double *part) {
     double stride = 0.02 / fmax(1, fabs(arc->sweep) / TURN);
     double nearest = distance(arc, *part);
@@ -101,7 +102,8 @@ static double track(const ideal_t *arc, double *part) {
     return nearest;
 }
 
-// Follows it to its end. Fails if the motors ever leave it by more than `steps`; returns the time in s.
+// Follows it to its end. Fails if the motors ever leave it by more than `steps`; returns the time
+// in s.
 static double follow(const ideal_t *arc, double steps) {
     TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, stepper_arc(&arc->wanted), err_message());
     uint64_t begin_us = hal_time_us();
@@ -125,7 +127,7 @@ static double follow(const ideal_t *arc, double steps) {
     return (double)(hal_time_us() - begin_us) * 1e-6;
 }
 
-// ---- Shape ---------------------------------------------------------------------------------------
+// ---- Shape --------------------------------------------------------------------------------------
 
 static void test_full_circle_takes_its_time(void) {
     bench_start();

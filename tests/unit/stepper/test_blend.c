@@ -157,8 +157,8 @@ static void test_a_line_that_has_begun_keeps_its_end(void) {
     bench_end();
 }
 
-// The machine is about to stop at the end of what it knows, 2.5 mm ahead, and has 50 mm/s. A corner that may
-// be passed at 19 mm/s must not appear 1.5 mm ahead.
+// The machine is about to stop at the end of what it knows, 2.5 mm ahead, and has 50 mm/s. A corner
+// that may be passed at 19 mm/s must not appear 1.5 mm ahead.
 static void test_the_end_is_not_changed_at_the_last_moment(void) {
     for (int early = 0; early < 2; early++) {
         start(32);
@@ -176,7 +176,8 @@ static void test_the_end_is_not_changed_at_the_last_moment(void) {
     }
 }
 
-// Who looks whether there is room before each line is never refused, and neither does the queue run over.
+// Who looks whether there is room before each line is never refused, and neither does the queue run
+// over.
 static void test_room_that_is_told_is_there(void) {
     for (uint32_t blocks = 1; blocks <= 6; blocks++) {
         start(blocks);

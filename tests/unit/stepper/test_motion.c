@@ -1,4 +1,5 @@
-// Every step counted at the pins: exact ends, exact positions on the way, minimum times, extreme scales.
+// Every step counted at the pins: exact ends, exact positions on the way, minimum times, extreme
+// scales.
 #include <math.h>
 #include <stdlib.h>
 #include <unity.h>

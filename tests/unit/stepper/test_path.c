@@ -1,4 +1,5 @@
-// Positions on arcs beside the C library's: radii from a tenth of a millimetre to ten metres, all scales.
+// Positions on arcs beside the C library's: radii from a tenth of a millimetre to ten metres, all
+// scales.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

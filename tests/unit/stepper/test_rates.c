@@ -1,4 +1,5 @@
-// Rates and accelerations over all that may be configured: every step is made, at most 50,000 a second.
+// Rates and accelerations over all that may be configured: every step is made, at most 50,000 a
+// second.
 #include <math.h>
 #include <unity.h>
 

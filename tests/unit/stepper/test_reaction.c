@@ -1,5 +1,6 @@
-// How soon hold, stop, override and resume show at the pins: from the call to the first step that is not where
-// it would have been without. The motion is deterministic, so one run without is the measure for all.
+// How soon hold, stop, override and resume show at the pins: from the call to the first step that
+// is not where it would have been without. The motion is deterministic, so one run without is the
+// measure for all.
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -82,7 +83,8 @@ static void call_faster(void) {
 
 static void call_nothing(void) {}
 
-// Ticks from the call to the first difference at this moment; in a child, so that the run can go on.
+// Ticks from the call to the first difference at this moment; in a child, so that the run can go
+// on.
 static uint32_t reaction_ticks(void (*call)(void)) {
     uint32_t begin = tick_now();
     *answer = 0;

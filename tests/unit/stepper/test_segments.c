@@ -1,5 +1,5 @@
-// The segment writer and the tick without a governor: every step against the closed form of the way, counted
-// at the pins tick by tick.
+// The segment writer and the tick without a governor: every step against the closed form of the
+// way, counted at the pins tick by tick.
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -138,7 +138,8 @@ static struct {
     double worst_ticks;
 } ideal;
 
-// A pulse comes with the first tick behind the middle between two steps, so on average half a tick late.
+// A pulse comes with the first tick behind the middle between two steps, so on average half a tick
+// late.
 static void compare_step(axis_id_t axis, int32_t steps, uint64_t at_tick) {
     double way = (abs(steps) - 0.5) / fabs(ideal.parts[axis]);
     double late = (double)(at_tick - ideal.first_tick) + 0.5 - time_at(&ideal.form, way);
@@ -161,8 +162,8 @@ static void write_way(double time, double next, bool follow_speed) {
     segment_writer_publish();
 }
 
-// Goes the way in slices of a millisecond, cut where the acceleration changes. Returns by how many ticks
-// the worst step of all axes is off.
+// Goes the way in slices of a millisecond, cut where the acceleration changes. Returns by how many
+// ticks the worst step of all axes is off.
 static double worst_step_of(const trapezoid_t *form, const double parts[AXIS_COUNT],
                             bool follow_speed) {
     const int32_t zero[AXIS_COUNT] = {0};
@@ -216,7 +217,7 @@ static void test_stairs_would_be_noticed(void) {
     TEST_ASSERT_TRUE(worst_step_of(&form, ahead_and_back, false) > 2 * TOLERANCE_TICKS);
 }
 
-// ---- Rates ---------------------------------------------------------------------------------------
+// ---- Rates --------------------------------------------------------------------------------------
 
 static struct {
     int64_t steps;
@@ -254,14 +255,14 @@ static void test_mean_rate_is_right_within_50_ppm(void) {
     }
 }
 
-// ---- Any way at all ------------------------------------------------------------------------------
+// ---- Any way at all -----------------------------------------------------------------------------
 
 static double uniform(double low, double high) {
     return low + (high - low) * rand() / RAND_MAX;
 }
 
-// Random targets, times, changes of speed and turns, more than can be: nothing is lost, the position is
-// right in every tick, and the last segment of a motion arrives.
+// Random targets, times, changes of speed and turns, more than can be: nothing is lost, the
+// position is right in every tick, and the last segment of a motion arrives.
 static void test_random_ways_arrive_exactly(void) {
     srand(3);
     const int32_t begin[AXIS_COUNT] = {0, 5, -7, 2000000000};

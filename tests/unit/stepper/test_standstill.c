@@ -1,5 +1,5 @@
-// Hold, stop and the end of a jog come to a standstill on machines of all kinds, in the time that their limits
-// ask for: from speed, while accelerating, and when hardly moving.
+// Hold, stop and the end of a jog come to a standstill on machines of all kinds, in the time that
+// their limits ask for: from speed, while accelerating, and when hardly moving.
 #include <math.h>
 #include <unity.h>
 
@@ -25,8 +25,8 @@ static void start(double acceleration, double jerk) {
     TEST_ASSERT_EQUAL(ERR_OK, stepper_jerk(jerk > 0 ? jerk : 1000, no_limits));
 }
 
-// The longest that a standstill can take: the acceleration is taken back, built up the other way and
-// taken back again. Slices of 2 ms and the end, which is a little slower, come on top.
+// The longest that a standstill can take: the acceleration is taken back, built up the other way
+// and taken back again. Slices of 2 ms and the end, which is a little slower, come on top.
 static double braking_s(double acceleration, double jerk) {
     double peak = jerk > 0 ? fmin(acceleration, sqrt(SPEED * jerk)) : 0;
     double ramps_s = jerk > 0 ? 3 * peak / jerk : 0;

@@ -1,5 +1,5 @@
-// When the flash may be written: not while anything moves or could begin to; the watch over an E-STOP input
-// pauses for it and goes on behind it.
+// When the flash may be written: not while anything moves or could begin to; the watch over an
+// E-STOP input pauses for it and goes on behind it.
 #include <string.h>
 #include <unity.h>
 

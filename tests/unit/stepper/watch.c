@@ -149,7 +149,7 @@ const char *watch_fault(void) {
     return watch.fault;
 }
 
-// ---- Limits --------------------------------------------------------------------------------------
+// ---- Limits -------------------------------------------------------------------------------------
 
 #define ORDERS 3
 #define WINDOWS 3
@@ -162,7 +162,8 @@ static int32_t place_at(const motor_t *motor, uint32_t tick, uint32_t *index) {
     return *index > 0 ? motor->steps[*index - 1].place : 0;
 }
 
-// By how much the greatest difference of that order over windows of `ticks` is more than `allowed` steps.
+// By how much the greatest difference of that order over windows of `ticks` is more than `allowed`
+// steps.
 static double excess_steps(const motor_t *motor, unsigned order, uint32_t ticks, double allowed,
                            uint32_t from) {
     static const int binomial[ORDERS + 1][ORDERS + 1] = {{1}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
@@ -188,8 +189,8 @@ double watch_excess(axis_id_t axis, unsigned order, double limit, double jump, u
     for (unsigned i = 0; i < WINDOWS && motor->count > 0; i++) {
         double window_s = windows[order][i] * (TICK_NS * 1e-9);
         double steps_per_limit = motor->steps_per_unit * pow(window_s, order);
-        // A place is known to half a step and to the way of a tick, at most half a step as well but hardly at
-        // all four places; they add up by the binomials.
+        // A place is known to half a step and to the way of a tick, at most half a step as well but
+        // hardly at all four places; they add up by the binomials.
         double grid = 0.75 * (1 << order);
         double allowed = limit * 1.02 * steps_per_limit +
                          (order > 1 ? jump * motor->steps_per_unit * window_s * (order - 1) : 0.0) +

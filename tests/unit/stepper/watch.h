@@ -30,18 +30,19 @@ const watch_step_t *watch_steps(axis_id_t axis);
 // Time of the last step of any axis; 0: none yet.
 uint64_t watch_last_step_ns(void);
 
-// From now on the places that the motors pass are remembered; and whether this was one of them, all axes at
-// the same moment.
+// From now on the places that the motors pass are remembered; and whether this was one of them, all
+// axes at the same moment.
 void watch_mark(void);
 bool watch_was_at(const int32_t steps[AXIS_COUNT]);
 
-// What is wrong with the record as a whole; NULL: nothing. Steps at least two ticks apart, none in the tick
-// of a change of direction or the next.
+// What is wrong with the record as a whole; NULL: nothing. Steps at least two ticks apart, none in
+// the tick of a change of direction or the next.
 const char *watch_fault(void);
 
-// By how much the axis is beyond a limit of its speed (order 1, units/s), acceleration (2, units/s^2) or jerk
-// (3, units/s^3) since `from_ns`; 0: it keeps it. Judged over windows of some milliseconds from differences
-// of places. `jump`: a corner may change the speed by that much at once, units/s.
+// By how much the axis is beyond a limit of its speed (order 1, units/s), acceleration (2,
+// units/s^2) or jerk (3, units/s^3) since `from_ns`; 0: it keeps it. Judged over windows of some
+// milliseconds from differences of places. `jump`: a corner may change the speed by that much at
+// once, units/s.
 double watch_excess(axis_id_t axis, unsigned order, double limit, double jump, uint64_t from_ns);
 
 #endif
