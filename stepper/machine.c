@@ -6,6 +6,7 @@
 #include "stepper/jog.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
+#include "stepper/step_isr.h"
 
 #define ENDING_US 5000u // the governor is at most half of it ahead
 
@@ -54,17 +55,25 @@ err_t machine_check_initialized(void) {
     return ERR_OK;
 }
 
+bool machine_executing(void) {
+    return governor_working() || (hal_tick_running() && !step_isr_watches());
+}
+
 // Nothing is queued any more: what the tick still executes, such as the time that drivers need when
 // they are turned on, ends within milliseconds.
 static bool is_ending(void) {
-    return governor_working() && ring_used(&blocks.ring) == 0 && !jog_active();
+    return machine_executing() && ring_used(&blocks.ring) == 0 && !jog_active();
 }
 
-err_t machine_check_at_rest(void) {
+void machine_await_end(void) {
     uint64_t limit_us = hal_time_us() + ENDING_US;
     while (is_ending() && hal_time_us() < limit_us) {
         hal_idle(limit_us);
     }
+}
+
+err_t machine_check_at_rest(void) {
+    machine_await_end();
     err_t err = machine_check_initialized();
     if (err == ERR_OK && !machine_at_rest()) {
         err = err_raise(ERR_STEPPER_BUSY, NULL);

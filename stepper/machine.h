@@ -34,6 +34,12 @@ bool machine_stopping(void);
 // Nothing moves and nothing waits.
 bool machine_at_rest(void);
 
+// There is motion, or the tick has something to do besides watching the E-STOP input.
+bool machine_executing(void);
+
+// If all that is left ends by itself within milliseconds, waits for it.
+void machine_await_end(void);
+
 bool machine_estop_asserted(void);
 
 // What must be true before a call may do its work; each raises its error.

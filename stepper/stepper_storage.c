@@ -1,33 +1,20 @@
 // What writing the flash has to ask of motion: it stops every context for up to 50 ms, so nothing
 // may move or be able to start by itself. An E-STOP input alone can wait that long. Context: main
 // loop.
-#include "stepper/governor.h"
-#include "stepper/jog.h"
-#include "stepper/planner.h"
+#include "stepper/machine.h"
 #include "stepper/step_isr.h"
-
-#define ENDING_US 5000u // the governor is at most half of it ahead
 
 static bool paused; // the tick, between begin and end
 
-// Nothing is queued any more: what the tick still executes ends within milliseconds.
-static bool is_ending(void) {
-    bool executing = governor_working() || (hal_tick_running() && !step_isr_watches());
-    return executing && ring_used(&blocks.ring) == 0 && !jog_active();
-}
-
 // From here to the end the governor is held off: it could start something.
 bool hal_on_storage_begin(void) {
-    uint64_t limit_us = hal_time_us() + ENDING_US;
-    while (is_ending() && hal_time_us() < limit_us) {
-        hal_idle(limit_us);
-    }
+    machine_await_end();
     hal_governor_lock();
-    bool runs = hal_tick_running();
-    if (governor_working() || (runs && !step_isr_watches())) {
+    if (machine_executing()) {
         hal_governor_unlock();
         return false;
     }
+    bool runs = hal_tick_running();
     if (runs) {
         hal_tick_stop();
     }
