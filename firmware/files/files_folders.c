@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "files/files.h"
+#include "files_names.h"
 #include "files_path.h"
 #include "files_volume.h"
 #include "hal/hal.h"
@@ -15,10 +16,6 @@ static struct {
 
 static lfs_ssize_t do_make(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_mkdir(lfs, call->path);
-}
-
-static lfs_ssize_t do_remove(lfs_t *lfs, const files_volume_call_t *call) {
-    return lfs_remove(lfs, call->path);
 }
 
 static lfs_ssize_t do_open_list(lfs_t *lfs, const files_volume_call_t *call) {
@@ -47,19 +44,11 @@ err_t files_make_folder(const char *path) {
 
 err_t files_remove_folder(const char *path) {
     files_path_t place;
-    files_entry_t entry;
-    err_t error = files_path_resolve(path, &place);
-    if (error == ERR_OK) {
-        error = files_info(path, &entry);
-    }
-    if (error == ERR_OK && !entry.is_folder) {
-        error = err_raise(ERR_NOT_A_FOLDER, "%s", place.text);
-    }
+    err_t error = files_path_resolve_folder(path, &place);
     if (error == ERR_OK && files_path_is_inside(files_folder(), place.text)) {
         error = err_raise(ERR_FOLDER_IN_USE, "%s", place.text);
     }
-    files_volume_call_t call = {.path = place.text};
-    return error != ERR_OK ? error : files_volume_write(do_remove, &call, NULL);
+    return error != ERR_OK ? error : files_names_remove(place.text);
 }
 
 // ---- Lists --------------------------------------------------------------------------------------
@@ -76,14 +65,7 @@ err_t files_list_start(const char *folder) {
     end_list();
     list.number++;
     files_path_t place;
-    files_entry_t entry;
-    err_t error = files_path_resolve(folder, &place);
-    if (error == ERR_OK) {
-        error = files_info(folder, &entry);
-    }
-    if (error == ERR_OK && !entry.is_folder) {
-        error = err_raise(ERR_NOT_A_FOLDER, "%s", place.text);
-    }
+    err_t error = files_path_resolve_folder(folder, &place);
     if (error != ERR_OK) {
         return error;
     }

@@ -14,6 +14,11 @@ static lfs_ssize_t do_remove(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_remove(lfs, call->path);
 }
 
+err_t files_names_remove(const char *path) {
+    files_volume_call_t call = {.path = path};
+    return files_volume_write(do_remove, &call, NULL);
+}
+
 static lfs_ssize_t do_rename(lfs_t *lfs, const files_volume_call_t *call) {
     return lfs_rename(lfs, call->path, call->to);
 }
@@ -27,7 +32,7 @@ void files_names_clean_up(void) {
     struct lfs_info info;
     files_volume_call_t call = {.path = REPLACEMENT, .info = &info};
     if (files_volume_read(do_info, &call, NULL) == ERR_OK) {
-        files_volume_write(do_remove, &call, NULL);
+        files_names_remove(REPLACEMENT);
     }
 }
 
@@ -108,8 +113,7 @@ err_t files_remove(const char *path) {
     if (error == ERR_OK) {
         error = files_names_check_unused(place.text);
     }
-    files_volume_call_t call = {.path = place.text};
-    return error != ERR_OK ? error : files_volume_write(do_remove, &call, NULL);
+    return error != ERR_OK ? error : files_names_remove(place.text);
 }
 
 // littlefs would make a folder that is moved into itself, with all in it, unreachable.

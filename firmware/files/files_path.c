@@ -72,6 +72,18 @@ err_t files_path_resolve(const char *path, files_path_t *out) {
     return good ? ERR_OK : err_raise(ERR_FILE_BAD_NAME, "%s", path);
 }
 
+err_t files_path_resolve_folder(const char *path, files_path_t *out) {
+    files_entry_t entry;
+    err_t error = files_path_resolve(path, out);
+    if (error == ERR_OK) {
+        error = files_info(path, &entry);
+    }
+    if (error == ERR_OK && !entry.is_folder) {
+        error = err_raise(ERR_NOT_A_FOLDER, "%s", out->text);
+    }
+    return error;
+}
+
 bool files_path_is_inside(const char *path, const char *inside) {
     size_t length = strlen(inside);
     bool root = length == 1;
@@ -81,14 +93,7 @@ bool files_path_is_inside(const char *path, const char *inside) {
 
 err_t files_change_folder(const char *path) {
     files_path_t to;
-    files_entry_t entry;
-    err_t error = files_path_resolve(path, &to);
-    if (error == ERR_OK) {
-        error = files_info(path, &entry);
-    }
-    if (error == ERR_OK && !entry.is_folder) {
-        error = err_raise(ERR_NOT_A_FOLDER, "%s", to.text);
-    }
+    err_t error = files_path_resolve_folder(path, &to);
     if (error == ERR_OK) {
         folder = to;
     }

@@ -11,6 +11,9 @@ typedef struct {
 // Error: no name that can be.
 err_t files_path_resolve(const char *path, files_path_t *out);
 
+// The same for a folder that has to be there. Errors: not found, not a folder.
+err_t files_path_resolve_folder(const char *path, files_path_t *out);
+
 // Both absolute: `path` is this folder or somewhere in it.
 bool files_path_is_inside(const char *path, const char *folder);
 
