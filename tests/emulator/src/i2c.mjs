@@ -3,8 +3,10 @@
 // bits), and at 0x4f a broken device that holds the clock. Bytes go out and come in as bytes: the pins show no waveform.
 // Source: RP2040 data sheet, 4.3.
 
+import { onPeripheralReset } from './peripheral_resets.mjs';
+
 const BYTE_CLOCKS = 9, EDGE_CLOCKS = 1;
-const RESETS = 0x4000c, RESET_BIT = [3, 4];
+const RESET_BIT = [3, 4];
 const FUNCTION_I2C = 3, PIN_PERIOD = 4; // of four pins that follow each other two belong to each port
 const HELD = 'held';
 const IDLE = 0, TEN_BITS = 1 << 4;
@@ -81,7 +83,7 @@ export class I2c {
             this.device?.stop?.();
             stock.completeStop();
         });
-        this.watchReset();
+        onPeripheralReset(mcu, RESET_BIT[index], () => this.reset());
     }
 
     clockNanos() {
@@ -106,16 +108,11 @@ export class I2c {
         this.later(BYTE_CLOCKS * (tenBits ? 2 : 1), () => this.stock.completeConnect(this.device?.connect() ?? false));
     }
 
-    // rp2040js has no reset of its peripherals.
-    watchReset() {
-        const resets = this.mcu.peripherals[RESETS], write = resets.writeUint32.bind(resets), { stock } = this;
-        resets.writeUint32 = (offset, value) => {
-            write(offset, value);
-            if ((resets.reset >> RESET_BIT[this.index] & 1) === 0) return;
-            this.alarm.cancel();
-            stock.txFIFO.reset();
-            stock.rxFIFO.reset();
-            Object.assign(stock, { state: IDLE, busy: false, stop: false, pendingRestart: false, enable: 0, intRaw: 0 });
-        };
+    reset() {
+        const { stock } = this;
+        this.alarm.cancel();
+        stock.txFIFO.reset();
+        stock.rxFIFO.reset();
+        Object.assign(stock, { state: IDLE, busy: false, stop: false, pendingRestart: false, enable: 0, intRaw: 0 });
     }
 }

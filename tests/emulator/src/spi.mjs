@@ -2,7 +2,9 @@
 // is kept with the form it had (rp2040js sends at once, and has no words of its own for the modes).
 // Source: RP2040 data sheet, 4.4 (ARM PL022).
 
-const RESETS = 0x4000c, RESET_BIT = [16, 17];
+import { onPeripheralReset } from './peripheral_resets.mjs';
+
+const RESET_BIT = [16, 17];
 const FUNCTION_SPI = 1, PINS_OF_PORT = 8;
 const ROLES = [0, 2, 3]; // receive, clock, transmit: the pin's number modulo 4
 
@@ -17,7 +19,7 @@ export class Spi {
             this.sent.push({ word, ...this.form() });
             this.alarm.schedule(stock.dataBits * 1e9 / stock.clockFrequency);
         };
-        this.watchReset();
+        onPeripheralReset(mcu, RESET_BIT[index], () => this.reset());
     }
 
     form() {
@@ -39,16 +41,11 @@ export class Spi {
         return this.sent.splice(0);
     }
 
-    // rp2040js has no reset of its peripherals.
-    watchReset() {
-        const resets = this.mcu.peripherals[RESETS], write = resets.writeUint32.bind(resets), { stock } = this;
-        resets.writeUint32 = (offset, value) => {
-            write(offset, value);
-            if ((resets.reset >> RESET_BIT[this.index] & 1) === 0) return;
-            this.alarm.cancel();
-            stock.txFIFO.reset();
-            stock.rxFIFO.reset();
-            Object.assign(stock, { busy: false, control0: 0, control1: 0, clockDivisor: 0 });
-        };
+    reset() {
+        const { stock } = this;
+        this.alarm.cancel();
+        stock.txFIFO.reset();
+        stock.rxFIFO.reset();
+        Object.assign(stock, { busy: false, control0: 0, control1: 0, clockDivisor: 0 });
     }
 }
