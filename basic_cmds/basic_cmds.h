@@ -6,12 +6,9 @@
 
 #include "basic/basic.h"
 
-extern const basic_command_t basic_cmds_commands[];
-extern const size_t basic_cmds_command_count;
-extern const basic_function_t basic_cmds_functions[];
-extern const size_t basic_cmds_function_count;
-extern const basic_assignment_t basic_cmds_assignments[];
-extern const size_t basic_cmds_assignment_count;
+// All rows, by subject.
+extern const basic_rows_t *const basic_cmds_tables[];
+extern const size_t basic_cmds_table_count;
 
 extern const struct basic_device *const basic_cmds_devices[];
 extern const size_t basic_cmds_device_count;

@@ -22,12 +22,8 @@ static void start_basic(void) {
     };
     config.arena = arena;
     config.arena_size = arena_size;
-    config.commands = basic_cmds_commands;
-    config.command_count = basic_cmds_command_count;
-    config.functions = basic_cmds_functions;
-    config.function_count = basic_cmds_function_count;
-    config.assignments = basic_cmds_assignments;
-    config.assignment_count = basic_cmds_assignment_count;
+    config.tables = basic_cmds_tables;
+    config.table_count = basic_cmds_table_count;
     config.devices = basic_cmds_devices;
     config.device_count = basic_cmds_device_count;
     basic_start(&config);

@@ -96,5 +96,5 @@ ACTION_BODY(option_format) {
     if (files_format() != ERR_OK) {
         errors_fail_raised();
     }
-    options_restart();
+    options_start();
 }

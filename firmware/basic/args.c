@@ -11,32 +11,11 @@
 #include "expressions.h"
 #include "lexer.h"
 #include "names.h"
+#include "rows.h"
 #include "symbols.h"
 #include "words.h"
 
 #define VALUES_MAX 255u // of a command, as its code counts them
-
-static const basic_config_t *config;
-
-void args_start(const basic_config_t *new_config) {
-    config = new_config;
-}
-
-const basic_command_t *args_command(unsigned row) {
-    return &config->commands[row];
-}
-
-bool args_is_command(int row) {
-    return row >= 0 && (size_t)row < config->command_count;
-}
-
-const basic_function_t *args_function(unsigned row) {
-    return &config->functions[row];
-}
-
-const basic_assignment_t *args_assignment(unsigned row) {
-    return &config->assignments[row];
-}
 
 // ---- One argument -------------------------------------------------------------------------------
 
@@ -264,12 +243,12 @@ static const char *match_words(const char *name, const char *text) {
 // All rows of the chain start with the word at hand: only what is behind it has to be compared.
 // WORDS_NONE: none fits; otherwise `behind` is where its words end.
 static int find_command(int row, const char **behind) {
-    size_t first_length = strcspn(config->commands[row].name, " ");
+    size_t first_length = strcspn(rows_command((unsigned)row)->name, " ");
     const char *start = lexer_now()->behind;
     size_t longest = 0;
     int found = WORDS_NONE;
     for (; row != WORDS_NONE; row = words_next(WORDS_COMMAND, row)) {
-        const char *rest = config->commands[row].name + first_length;
+        const char *rest = rows_command((unsigned)row)->name + first_length;
         const char *end = *rest == '\0' ? start : match_words(rest + 1, start);
         if (end != NULL && (found == WORDS_NONE || strlen(rest) > longest)) {
             longest = strlen(rest);
@@ -289,28 +268,28 @@ bool args_fits_command(int row) {
 }
 
 void args_compile_command(int row) {
-    const char *first_name = config->commands[row].name;
+    const char *first_name = rows_command((unsigned)row)->name;
     const char *behind;
     int found = find_command(row, &behind);
     if (found == WORDS_NONE) {
         errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%.*s", (int)strcspn(first_name, " "), first_name);
     }
     found = args_select_row(found, behind);
-    const basic_command_t *command = &config->commands[found];
+    const basic_command_t *command = rows_command((unsigned)found);
     lexer_go(behind);
     unsigned count = compile_list(command->args, command->arg_count, false);
     emit_op(OP_COMMAND);
-    emit_byte((unsigned)found);
+    rows_emit(ROWS_COMMANDS, (unsigned)found);
     emit_byte(count);
 }
 
 void args_compile_function(int row) {
-    const char *name = config->functions[row].name;
+    const char *name = rows_function((unsigned)row)->name;
     lexer_next();
     bool parentheses = lexer_take('(');
     int found = WORDS_NONE;
     for (; row != WORDS_NONE; row = words_next(WORDS_HOST_FUNCTION, row)) {
-        const char *keyword = config->functions[row].keyword;
+        const char *keyword = rows_function((unsigned)row)->keyword;
         if (keyword != NULL && lexer_is_word(keyword)) {
             found = row;
             lexer_next();
@@ -323,7 +302,7 @@ void args_compile_function(int row) {
     if (found == WORDS_NONE) {
         errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%s", name);
     }
-    const basic_function_t *function = &config->functions[found];
+    const basic_function_t *function = rows_function((unsigned)found);
     if (!parentheses && function->arg_count > 0) {
         errors_fail(ERR_SYNTAX);
     }
@@ -335,12 +314,12 @@ void args_compile_function(int row) {
         lexer_expect(')');
     }
     emit_op(OP_HOST_FUNCTION);
-    emit_byte((unsigned)found);
+    rows_emit(ROWS_FUNCTIONS, (unsigned)found);
     emit_byte(count);
 }
 
 void args_compile_assignment(int row) {
-    const basic_assignment_t *assignment = &config->assignments[row];
+    const basic_assignment_t *assignment = rows_assignment((unsigned)row);
     lexer_next();
     lexer_expect('(');
     bool else_ends = lexer_set_else_ends(false);
@@ -350,6 +329,6 @@ void args_compile_assignment(int row) {
     lexer_expect('=');
     compile_argument(&assignment->args[0], false);
     emit_op(OP_ASSIGNMENT);
-    emit_byte((unsigned)row);
+    rows_emit(ROWS_ASSIGNMENTS, (unsigned)row);
     emit_byte(count + 1);
 }

@@ -9,8 +9,6 @@
 #include "lexer.h"
 #include "value.h"
 
-void args_start(const basic_config_t *config);
-
 // ---- Compiling ----------------------------------------------------------------------------------
 
 // The word at hand is the first of row `row`'s name; true if further words make one of the rows'
@@ -35,13 +33,14 @@ void args_compile_assignment(int row);
 
 // ---- Running ------------------------------------------------------------------------------------
 
-void args_run(unsigned row, const value_t *values, unsigned count);
+// `row` is where the code names the row.
+void args_run(const uint8_t *row, const value_t *values, unsigned count);
 
 // The value to be assigned is the last of `values`.
-void args_assign(unsigned row, value_t *values, unsigned count);
+void args_assign(const uint8_t *row, value_t *values, unsigned count);
 
 // Leaves the result in values[0].
-void args_evaluate(unsigned row, value_t *values, unsigned count);
+void args_evaluate(const uint8_t *row, value_t *values, unsigned count);
 
 // The SUB that a value names, 0 for the number 0. Errors: no such SUB, it has parameters.
 basic_routine_t args_routine(const char *name, const value_t *value);
@@ -58,11 +57,5 @@ void args_describe_range(const basic_arg_spec_t *spec, char *buffer, size_t size
 
 // A limit or default in full digits; the buffer has NUMBER_TEXT_SIZE bytes.
 void args_format_limit(char *buffer, double limit);
-
-// The configuration's rows.
-const basic_command_t *args_command(unsigned row);
-bool args_is_command(int row); // there is such a row
-const basic_function_t *args_function(unsigned row);
-const basic_assignment_t *args_assignment(unsigned row);
 
 #endif

@@ -10,6 +10,7 @@
 #include "hal/pins.h"
 #include "memory.h"
 #include "number_text.h"
+#include "rows.h"
 
 #define UNLIMITED 1e300 // limits beyond this are not worth telling
 
@@ -275,8 +276,8 @@ void args_deliver(const basic_arg_spec_t *specs, size_t spec_count, const value_
 
 static basic_arg_t delivered[BASIC_ARGS_MAX]; // a row's function never leads to another's
 
-void args_run(unsigned row, const value_t *values, unsigned count) {
-    const basic_command_t *command = args_command(row);
+void args_run(const uint8_t *row, const value_t *values, unsigned count) {
+    const basic_command_t *command = rows_command_at(row);
     size_t total;
     args_deliver(command->args, command->arg_count, values, count, delivered, &total);
     if (command->run(delivered, total) != ERR_OK) {
@@ -284,8 +285,8 @@ void args_run(unsigned row, const value_t *values, unsigned count) {
     }
 }
 
-void args_assign(unsigned row, value_t *values, unsigned count) {
-    const basic_assignment_t *assignment = args_assignment(row);
+void args_assign(const uint8_t *row, value_t *values, unsigned count) {
+    const basic_assignment_t *assignment = rows_assignment_at(row);
     value_t value = values[count - 1];
     memmove(values + 1, values, (count - 1) * sizeof *values);
     values[0] = value;
@@ -296,8 +297,8 @@ void args_assign(unsigned row, value_t *values, unsigned count) {
     }
 }
 
-void args_evaluate(unsigned row, value_t *values, unsigned count) {
-    const basic_function_t *function = args_function(row);
+void args_evaluate(const uint8_t *row, value_t *values, unsigned count) {
+    const basic_function_t *function = rows_function_at(row);
     size_t total;
     args_deliver(function->args, function->arg_count, values, count, delivered, &total);
     basic_value_t result = {.type = BASIC_INTEGER, .integer = 0};

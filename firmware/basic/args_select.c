@@ -9,6 +9,7 @@
 #include "choices.h"
 #include "errors.h"
 #include "lexer.h"
+#include "rows.h"
 #include "words.h"
 
 // The argument whose word takes the row; NULL: the row has none.
@@ -44,21 +45,21 @@ static bool is_selected(const basic_command_t *row, const char *start) {
 }
 
 static bool has_name(int row, const char *name) {
-    return strcmp(args_command((unsigned)row)->name, name) == 0;
+    return strcmp(rows_command((unsigned)row)->name, name) == 0;
 }
 
 // The words of all rows with this name, in the order of the rows, "A, B, C"; dots where the buffer
 // ends. Returns the row whose word stands first among the arguments.
 static const basic_command_t *list_words(int row, char *buffer, size_t size) {
-    const char *name = args_command((unsigned)row)->name;
+    const char *name = rows_command((unsigned)row)->name;
     size_t used = 0;
     size_t place = SIZE_MAX;
     const basic_command_t *first = NULL;
     while (row > 0 && has_name(row - 1, name)) {
         row--;
     }
-    for (; args_is_command(row) && has_name(row, name); row++) {
-        const basic_command_t *command = args_command((unsigned)row);
+    for (; rows_command((unsigned)row) != NULL && has_name(row, name); row++) {
+        const basic_command_t *command = rows_command((unsigned)row);
         size_t index = (size_t)(selector_of(command) - command->args);
         if (index < place) {
             place = index;
@@ -91,17 +92,17 @@ static _Noreturn void fail_selection(int row, const char *start) {
 }
 
 int args_select_row(int row, const char *start) {
-    const char *name = args_command((unsigned)row)->name;
+    const char *name = rows_command((unsigned)row)->name;
     int fallback = WORDS_NONE;
     int first = row;
     for (; row != WORDS_NONE; row = words_next(WORDS_COMMAND, row)) {
         if (!has_name(row, name)) {
             continue;
         }
-        if (is_selected(args_command((unsigned)row), start)) {
+        if (is_selected(rows_command((unsigned)row), start)) {
             return row;
         }
-        if (selector_of(args_command((unsigned)row)) == NULL) {
+        if (selector_of(rows_command((unsigned)row)) == NULL) {
             fallback = row;
         }
     }

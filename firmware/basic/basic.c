@@ -17,6 +17,7 @@
 #include "options.h"
 #include "program.h"
 #include "requests.h"
+#include "rows.h"
 #include "runner.h"
 #include "vm.h"
 #include "watchdog.h"
@@ -72,16 +73,14 @@ void basic_start(const basic_config_t *new_config) {
     console_start(background, config->on_control);
     line_editor_start();
     actions_start(config);
-    args_start(config);
+    rows_start(config);
     channels_start(config);
-    complete_start(config);
-    help_start(config);
-    words_start(config);
+    words_start();
     memory_start(config->arena, config->arena_size);
     program_use_text("", 0);
     show_banner();
     messages_report(files_start());
-    options_start(config);
+    options_start();
     messages_report(program_start());
     console_flush();
 }

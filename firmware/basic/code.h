@@ -67,13 +67,13 @@ typedef enum {
     OP_LEAVE,         // end of a SUB or FUNCTION
     OP_INDIRECT,      // n kind (indirect.h), n arguments
     OP_FUNCTION,      // n row of functions.c, n arguments
-    OP_HOST_FUNCTION, // n row of the configuration, n arguments
-    OP_COMMAND,       // n row of the configuration, n arguments
-    OP_ASSIGNMENT,    // n row of the configuration, n arguments, the last of them the value
-    OP_ACTION,        // n row of actions.def, n arguments
-    OP_DEADLINE,      // milliseconds on the stack become the time when they have passed
-    OP_WAIT,          // until the time on the stack, serving events
-    OP_DATA,          // p next DATA or 0, t
+    OP_HOST_FUNCTION, // nn row of the configuration (rows.h), n arguments
+    OP_COMMAND,       // nn row of the configuration (rows.h), n arguments
+    OP_ASSIGNMENT, // nn row of the configuration (rows.h), n arguments, the last of them the value
+    OP_ACTION,     // n row of actions.def, n arguments
+    OP_DEADLINE,   // milliseconds on the stack become the time when they have passed
+    OP_WAIT,       // until the time on the stack, serving events
+    OP_DATA,       // p next DATA or 0, t
 } code_op_t;
 
 static inline uint16_t code_u16(const uint8_t *pc) {

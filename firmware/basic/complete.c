@@ -8,12 +8,11 @@
 #include "files/files.h"
 #include "functions.h"
 #include "lexer.h"
+#include "rows.h"
 #include "statements.h"
 #include "symbols.h"
 
 typedef void (*visit_t)(const char *name, size_t length, char after);
-
-static const basic_config_t *config;
 
 // The word at hand and where what is found goes.
 static struct {
@@ -26,10 +25,6 @@ static struct {
     visit_t visit;
     complete_t *result;
 } at;
-
-void complete_start(const basic_config_t *new_config) {
-    config = new_config;
-}
 
 // ---- Where the word is --------------------------------------------------------------------------
 
@@ -108,9 +103,9 @@ static void offer_symbol(symbols_t *symbol) {
 }
 
 static void offer_statements(void) {
-    for (size_t i = 0; i < config->command_count; i++) {
-        const char *name = config->commands[i].name;
-        offer(at.statement, name, strlen(name), ' ');
+    const basic_command_t *row;
+    for (unsigned i = 0; (row = rows_command(i)) != NULL; i++) {
+        offer(at.statement, row->name, strlen(row->name), ' ');
     }
     for (size_t i = 0; at.word == at.statement && i < statements_count; i++) {
         const char *name = statements_table[i].name;
@@ -122,10 +117,10 @@ static void offer_statements(void) {
 }
 
 static void offer_functions(void) {
-    for (size_t i = 0; i < config->function_count; i++) {
-        const char *name = config->functions[i].name;
-        if (i == 0 || strcmp(name, config->functions[i - 1].name) != 0) {
-            offer(at.word, name, strlen(name), '(');
+    const basic_function_t *row;
+    for (unsigned i = 0; (row = rows_function(i)) != NULL; i++) {
+        if (i == 0 || strcmp(row->name, rows_function(i - 1)->name) != 0) {
+            offer(at.word, row->name, strlen(row->name), '(');
         }
     }
     for (size_t i = 0; i < functions_count; i++) {

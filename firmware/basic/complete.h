@@ -17,8 +17,6 @@ typedef struct {
     size_t more_length;
 } complete_t;
 
-void complete_start(const basic_config_t *config);
-
 // For the `cursor` bytes at `line`.
 void complete_find(const char *line, size_t cursor, complete_t *result);
 

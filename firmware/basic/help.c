@@ -10,13 +10,8 @@
 #include "functions.h"
 #include "lexer.h"
 #include "number_text.h"
+#include "rows.h"
 #include "statements.h"
-
-static const basic_config_t *config;
-
-void help_start(const basic_config_t *new_config) {
-    config = new_config;
-}
 
 static void print_line(const char *text) {
     console_print(text);
@@ -33,9 +28,10 @@ static void print_word(const char *word) {
 }
 
 static void print_command_names(void) {
-    for (size_t i = 0; i < config->command_count; i++) {
-        if (i == 0 || strcmp(config->commands[i].name, config->commands[i - 1].name) != 0) {
-            print_word(config->commands[i].name);
+    const basic_command_t *row;
+    for (unsigned i = 0; (row = rows_command(i)) != NULL; i++) {
+        if (i == 0 || strcmp(row->name, rows_command(i - 1)->name) != 0) {
+            print_word(row->name);
         }
     }
     console_fresh_line();
@@ -51,9 +47,10 @@ static void print_statement_names(void) {
 }
 
 static void print_function_names(void) {
-    for (size_t i = 0; i < config->function_count; i++) {
-        if (i == 0 || strcmp(config->functions[i].name, config->functions[i - 1].name) != 0) {
-            print_word(config->functions[i].name);
+    const basic_function_t *row;
+    for (unsigned i = 0; (row = rows_function(i)) != NULL; i++) {
+        if (i == 0 || strcmp(row->name, rows_function(i - 1)->name) != 0) {
+            print_word(row->name);
         }
     }
     for (size_t i = 0; i < functions_count; i++) {
@@ -218,8 +215,8 @@ static bool starts_with(const char *name, const char *topic, size_t length) {
 static bool print_commands(const char *topic, size_t length) {
     bool found = false;
     bool listed = false;
-    for (size_t i = 0; i < config->command_count; i++) {
-        const basic_command_t *row = &config->commands[i];
+    const basic_command_t *row;
+    for (unsigned i = 0; (row = rows_command(i)) != NULL; i++) {
         if (!starts_with(row->name, topic, length)) {
             continue;
         }
@@ -254,15 +251,17 @@ static bool print_language(const char *topic, size_t length) {
             found = true;
         }
     }
-    for (size_t i = 0; i < config->function_count; i++) {
-        if (lexer_same(topic, length, config->functions[i].name)) {
-            print_function(&config->functions[i]);
+    const basic_function_t *function;
+    for (unsigned i = 0; (function = rows_function(i)) != NULL; i++) {
+        if (lexer_same(topic, length, function->name)) {
+            print_function(function);
             found = true;
         }
     }
-    for (size_t i = 0; i < config->assignment_count; i++) {
-        if (lexer_same(topic, length, config->assignments[i].name)) {
-            print_assignment(&config->assignments[i]);
+    const basic_assignment_t *assignment;
+    for (unsigned i = 0; (assignment = rows_assignment(i)) != NULL; i++) {
+        if (lexer_same(topic, length, assignment->name)) {
+            print_assignment(assignment);
             found = true;
         }
     }

@@ -7,8 +7,6 @@
 
 #include "basic/basic.h"
 
-void help_start(const basic_config_t *config);
-
 // The names of all commands and statements, or of all functions.
 void help_print_words(bool commands);
 

@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "files/files.h"
+#include "rows.h"
 #include "source_lines.h"
 
 #define OPTIONS_FILE "/.options"
@@ -28,7 +29,6 @@ static const struct {
 
 static struct {
     char text[TEXT_SIZE]; // zero-terminated
-    const basic_config_t *config;
 } options;
 
 // ---- The text -----------------------------------------------------------------------------------
@@ -133,12 +133,7 @@ static void apply(void) {
 }
 
 // A file that is not there, or cannot be read, leaves everything as it is at first.
-void options_start(const basic_config_t *config) {
-    options.config = config;
-    options_restart();
-}
-
-void options_restart(void) {
+void options_start(void) {
     char text[TEXT_SIZE];
     int file;
     size_t got = 0;
@@ -183,8 +178,8 @@ err_t options_reset(void) {
 
 // The words a row of the product chooses from, or NULL.
 static const char *choices_of(const char *name, size_t length) {
-    for (size_t i = 0; i < options.config->command_count; i++) {
-        const basic_command_t *row = &options.config->commands[i];
+    const basic_command_t *row;
+    for (unsigned i = 0; (row = rows_command(i)) != NULL; i++) {
         if (strncmp(row->name, "OPTION ", 7) == 0 && strncmp(row->name + 7, name, length) == 0 &&
             row->name[7 + length] == '\0' && row->arg_count > 0) {
             return row->args[0].kind == BASIC_ARG_CHOICE ? row->args[0].choices : NULL;

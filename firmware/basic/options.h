@@ -18,11 +18,9 @@ typedef enum {
 
 #define OPTIONS_DISPLAY_VALUE(lines, columns) ((int64_t)(lines) * 256 + (columns))
 
-// Reads the file and lets the settings take effect.
-void options_start(const basic_config_t *config);
-
-// The same when the file is another one, or gone.
-void options_restart(void);
+// Reads the file and lets the settings take effect: at the start, and when the file is another one
+// or gone.
+void options_start(void);
 
 int64_t options_get(options_t option);
 

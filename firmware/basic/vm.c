@@ -408,23 +408,23 @@ static void loop(void) {
             pc += 2;
             break;
         case OP_HOST_FUNCTION:
-            sp -= pc[1];
+            sp -= pc[2];
             if (sp >= memory.values_limit) {
                 errors_fail(ERR_TOO_COMPLEX);
             }
-            args_evaluate(pc[0], sp, pc[1]);
+            args_evaluate(pc, sp, pc[2]);
             sp++;
-            pc += 2;
+            pc += 3;
             break;
         case OP_COMMAND:
-            sp -= pc[1];
-            args_run(pc[0], sp, pc[1]);
-            pc += 2;
+            sp -= pc[2];
+            args_run(pc, sp, pc[2]);
+            pc += 3;
             break;
         case OP_ASSIGNMENT:
-            sp -= pc[1];
-            args_assign(pc[0], sp, pc[1]);
-            pc += 2;
+            sp -= pc[2];
+            args_assign(pc, sp, pc[2]);
+            pc += 3;
             break;
         case OP_ACTION:
             sp -= pc[1];

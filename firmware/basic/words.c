@@ -5,15 +5,17 @@
 
 #include "functions.h"
 #include "lexer.h"
+#include "rows.h"
 #include "statements.h"
 
 #define SLOTS 512u // power of two, more than twice the number of words
-
-static const basic_config_t *config;
+#define FUNCTIONS_MAX 64u
 
 static struct {
-    uint16_t slots[SLOTS];           // 0: free, otherwise 1 + kind and row
-    int16_t next[2][WORDS_ROWS_MAX]; // chains of rows with one first word: commands, functions
+    uint16_t slots[SLOTS]; // 0: free, otherwise 1 + kind and row
+    // Chains of rows with one first word: 1 + the next row, 0 at the end.
+    uint8_t next_command[ROWS_MAX];
+    uint8_t next_function[FUNCTIONS_MAX];
 } words;
 
 static const char *const reserved[] = {
@@ -28,11 +30,11 @@ static const char *name_of(words_kind_t kind, size_t row) {
     case WORDS_FUNCTION:
         return functions_table[row].name;
     case WORDS_COMMAND:
-        return config->commands[row].name;
+        return rows_command((unsigned)row)->name;
     case WORDS_HOST_FUNCTION:
-        return config->functions[row].name;
+        return rows_function((unsigned)row)->name;
     default:
-        return config->assignments[row].name;
+        return rows_assignment((unsigned)row)->name;
     }
 }
 
@@ -59,27 +61,34 @@ static uint16_t *slot_of(words_kind_t kind, const char *text, size_t length) {
     return &words.slots[hash % SLOTS];
 }
 
-// Rows in turn: a later one with the same first word comes first in the chain.
-static void add_rows(words_kind_t kind, size_t count) {
-    for (size_t row = 0; row < count && row < WORDS_ROWS_MAX; row++) {
-        const char *name = name_of(kind, row);
-        uint16_t *slot = slot_of(kind, name, strcspn(name, " "));
-        if (*slot != 0) {
-            words.next[kind - WORDS_COMMAND][row] = (int16_t)((*slot - 1u) % WORDS_ROWS_MAX);
-        }
-        *slot = (uint16_t)(1u + kind * WORDS_ROWS_MAX + row);
+static void add_row(words_kind_t kind, size_t row, uint8_t *next) {
+    const char *name = name_of(kind, row);
+    uint16_t *slot = slot_of(kind, name, strcspn(name, " "));
+    if (*slot != 0 && next != NULL) {
+        next[row] = (uint8_t)(1 + (*slot - 1u) % WORDS_ROWS_MAX);
     }
+    *slot = (uint16_t)(1u + kind * WORDS_ROWS_MAX + row);
 }
 
-void words_start(const basic_config_t *new_config) {
-    config = new_config;
+// Rows in turn: a later one with the same first word comes first in the chain.
+void words_start(void) {
     memset(&words, 0, sizeof words);
-    memset(words.next, 0xFF, sizeof words.next); // WORDS_NONE
-    add_rows(WORDS_STATEMENT, statements_count);
-    add_rows(WORDS_FUNCTION, functions_count);
-    add_rows(WORDS_COMMAND, config->command_count);
-    add_rows(WORDS_HOST_FUNCTION, config->function_count);
-    add_rows(WORDS_ASSIGNMENT, config->assignment_count); // all first words differ: no chains
+    for (size_t row = 0; row < statements_count; row++) {
+        add_row(WORDS_STATEMENT, row, NULL);
+    }
+    for (size_t row = 0; row < functions_count; row++) {
+        add_row(WORDS_FUNCTION, row, NULL);
+    }
+    for (size_t row = 0; row < ROWS_MAX && rows_command((unsigned)row) != NULL; row++) {
+        add_row(WORDS_COMMAND, row, words.next_command);
+    }
+    for (size_t row = 0; row < FUNCTIONS_MAX && rows_function((unsigned)row) != NULL; row++) {
+        add_row(WORDS_HOST_FUNCTION, row, words.next_function);
+    }
+    // All their first words differ: no chains.
+    for (size_t row = 0; row < ROWS_MAX && rows_assignment((unsigned)row) != NULL; row++) {
+        add_row(WORDS_ASSIGNMENT, row, NULL);
+    }
 }
 
 int words_find(words_kind_t kind, const char *text, size_t length) {
@@ -88,7 +97,8 @@ int words_find(words_kind_t kind, const char *text, size_t length) {
 }
 
 int words_next(words_kind_t kind, int row) {
-    return words.next[kind - WORDS_COMMAND][row];
+    const uint8_t *next = kind == WORDS_COMMAND ? words.next_command : words.next_function;
+    return next[row] - 1; // WORDS_NONE at the end
 }
 
 bool words_is_reserved(const char *text, size_t length) {

@@ -9,7 +9,7 @@
 #include "basic/basic.h"
 
 #define WORDS_NONE (-1)
-#define WORDS_ROWS_MAX 128u // of each table
+#define WORDS_ROWS_MAX 256u // of each kind
 
 typedef enum {
     WORDS_STATEMENT, // row of statements_table
@@ -20,7 +20,7 @@ typedef enum {
 } words_kind_t;
 
 // Fills the table.
-void words_start(const basic_config_t *config);
+void words_start(void);
 
 // The row, or WORDS_NONE. Case does not matter.
 int words_find(words_kind_t kind, const char *text, size_t length);

@@ -349,8 +349,10 @@ static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
 }
 
 void fuzz_console_command(fuzz_text_t *text) {
+    const basic_rows_t *table =
+        basic_cmds_tables[fuzz_random_below((unsigned)basic_cmds_table_count)];
     const basic_command_t *command =
-        &basic_cmds_commands[fuzz_random_below((unsigned)basic_cmds_command_count)];
+        &table->commands[fuzz_random_below((unsigned)table->command_count)];
     if (fuzz_random_percent(50)) {
         fuzz_text_add(text, "STEPPER GC ");
         add_gcode(text);

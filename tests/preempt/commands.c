@@ -61,10 +61,8 @@ void commands_start(void) {
         .background = basic_cmds_background,
         .on_break = basic_cmds_break,
     };
-    config.commands = basic_cmds_commands;
-    config.command_count = basic_cmds_command_count;
-    config.functions = basic_cmds_functions;
-    config.function_count = basic_cmds_function_count;
+    config.tables = basic_cmds_tables;
+    config.table_count = basic_cmds_table_count;
     host_console_attach(&peer);
     basic_start(&config);
 }

@@ -158,6 +158,27 @@ static void print_functions(void) {
     }
 }
 
+static void print_commands(void) {
+    for (size_t i = 0; i < basic_cmds_table_count; i++) {
+        const basic_rows_t *table = basic_cmds_tables[i];
+        for (size_t row = 0; row < table->command_count; row++) {
+            print_command(&table->commands[row]);
+        }
+    }
+}
+
+static void print_product_functions(void) {
+    for (size_t i = 0; i < basic_cmds_table_count; i++) {
+        const basic_rows_t *table = basic_cmds_tables[i];
+        for (size_t row = 0; row < table->function_count; row++) {
+            print_function(&table->functions[row]);
+        }
+        for (size_t row = 0; row < table->assignment_count; row++) {
+            print_assignment(&table->assignments[row]);
+        }
+    }
+}
+
 int main(void) {
     printf("# Command reference\n\n"
            "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
@@ -170,15 +191,8 @@ int main(void) {
            "guide](user-guide.md) "
            "shows how the commands\n"
            "work together.\n\n");
-    for (size_t i = 0; i < basic_cmds_command_count; i++) {
-        print_command(&basic_cmds_commands[i]);
-    }
-    for (size_t i = 0; i < basic_cmds_function_count; i++) {
-        print_function(&basic_cmds_functions[i]);
-    }
-    for (size_t i = 0; i < basic_cmds_assignment_count; i++) {
-        print_assignment(&basic_cmds_assignments[i]);
-    }
+    print_commands();
+    print_product_functions();
     print_statements();
     print_functions();
     return 0;

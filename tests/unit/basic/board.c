@@ -27,6 +27,7 @@ static struct {
     size_t shown_length;
     uint8_t flash[HAL_STORAGE_SIZE];
     _Alignas(8) uint8_t arena[ARENA_SIZE];
+    basic_rows_t rows;
     basic_config_t config;
 } state;
 
@@ -72,21 +73,22 @@ static bool take_control(char c) {
 }
 
 void board_assignments(const basic_assignment_t *assignments, size_t count) {
-    state.config.assignments = assignments;
-    state.config.assignment_count = count;
+    state.rows.assignments = assignments;
+    state.rows.assignment_count = count;
 }
 
 void board_start(const basic_command_t *commands, size_t command_count,
                  const basic_function_t *functions, size_t function_count) {
+    static const basic_rows_t *const tables[] = {&state.rows};
+    state.rows.commands = commands;
+    state.rows.command_count = command_count;
+    state.rows.functions = functions;
+    state.rows.function_count = function_count;
     state.config = (basic_config_t){
         .arena = state.arena,
         .arena_size = sizeof state.arena,
-        .commands = commands,
-        .command_count = command_count,
-        .functions = functions,
-        .function_count = function_count,
-        .assignments = state.config.assignments,
-        .assignment_count = state.config.assignment_count,
+        .tables = tables,
+        .table_count = 1,
         .background = count_background,
         .on_break = count_break,
         .on_clear = count_clear,

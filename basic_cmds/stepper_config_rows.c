@@ -1,0 +1,96 @@
+// Rows of the commands that set the machine up. Context: main loop.
+#include "basic_cmds/configure.h"
+#include "basic_cmds/row_args.h"
+#include "basic_cmds/tables.h"
+#include "stepper/stepper.h"
+
+static const basic_arg_spec_t init_args[INIT_ARGS] = {
+    [INIT_TOLERANCE] = {"arc_tolerance", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10,
+                        .fallback = 0.05, .unit = "mm", .help = "greatest radial error of an arc"},
+    [INIT_BUFFER] = {"buffer_size", BASIC_ARG_INTEGER, DEFAULTS, .min = 1,
+                     .max = STEPPER_BLOCKS_MAX, .fallback = STEPPER_BLOCKS_DEFAULT,
+                     .help = "slots of the look-ahead queue"},
+    [INIT_ESTOP] = {"estop_pin", BASIC_ARG_PIN, OPTIONAL,
+                    .help = "emergency stop input, active low with pull-up"},
+    [INIT_KEEP] = SWITCH_ARG("estop_keep_enabled", "1: drivers stay on in an emergency stop"),
+};
+
+static const basic_arg_spec_t axis_args[AXIS_ARGS] = {
+    [AXIS_ARG_AXIS] = AXIS_ARG,
+    [AXIS_ARG_STEP] = {"step_pin", BASIC_ARG_PIN, .help = "step output, a pulse of 10 us"},
+    [AXIS_ARG_DIR] = {"dir_pin", BASIC_ARG_PIN, .help = "direction output, high counts up"},
+    [AXIS_ARG_ENABLE] = {"enable_pin", BASIC_ARG_PIN, OPTIONAL,
+                         .help = "driver enable, active low"},
+    [AXIS_ARG_INVERT] = SWITCH_ARG("dir_invert", "1: direction output low counts up"),
+    [AXIS_ARG_SCALE] = {"steps_per_unit", BASIC_ARG_NUMBER, DEFAULTS, .min = 0.001, .max = 100000,
+                        .fallback = 200, .unit = "steps/mm or steps/deg", .help = "scale"},
+    [AXIS_ARG_VELOCITY] = {"max_vel", BASIC_ARG_NUMBER, DEFAULTS, .min = 0.001, .max = 10000000,
+                           .fallback = 6000, .unit = "mm/min or deg/min", .help = "greatest speed"},
+    [AXIS_ARG_ACCELERATION] = {"max_accel", BASIC_ARG_NUMBER, DEFAULTS, .min = 0.01, .max = 1000000,
+                               .fallback = 500, .unit = "mm/s^2 or deg/s^2",
+                               .help = "greatest acceleration"},
+    [AXIS_ARG_BACKOFF] = {"home_backoff_mm", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0,
+                          .max = 1000, .fallback = 3, .unit = "mm",
+                          .help = "way back from the home switch"},
+};
+
+static const basic_arg_spec_t limits_args[LIMITS_ARGS] = {
+    [LIMITS_AXIS] = LINEAR_AXIS_ARG,
+    [LIMITS_MIN] = {"min_mm", BASIC_ARG_NUMBER, .unit = "mm", .help = "lowest machine position"},
+    [LIMITS_MAX] = {"max_mm", BASIC_ARG_NUMBER, .unit = "mm", .help = "highest machine position"},
+};
+
+static const basic_arg_spec_t spindle_args[SPINDLE_ARGS] = {
+    [SPINDLE_PIN] = {"pin", BASIC_ARG_PIN, OPTIONAL,
+                     .help = "output switched by M3 and M5, 0: none"},
+    [SPINDLE_INVERT] = SWITCH_ARG("invert", "1: low is on"),
+};
+
+static const basic_arg_spec_t junction_args[] = {
+    {"deviation_mm", BASIC_ARG_NUMBER, .min = 0, .max = 10, .unit = "mm",
+     .help = "how far an arc that replaces the corner would pass from it; more is faster"},
+};
+
+static const basic_arg_spec_t scurve_args[] = {
+    {"on", BASIC_ARG_INTEGER, .min = 0, .max = 1,
+     .help = "1: acceleration changes gradually, 0: at once"},
+};
+
+#define AXIS_JERK_ARG(letter, axis_unit)                                                           \
+    {letter,                                                                                       \
+     BASIC_ARG_NUMBER,                                                                             \
+     OPTIONAL,                                                                                     \
+     .min = STEPPER_JERK_MIN,                                                                      \
+     .max = STEPPER_JERK_MAX,                                                                      \
+     .unit = axis_unit,                                                                            \
+     .help = "the axis's own limit; left out: none"}
+
+static const basic_arg_spec_t jerk_args[] = {
+    {"value", BASIC_ARG_NUMBER, .min = STEPPER_JERK_MIN, .max = STEPPER_JERK_MAX, .unit = "mm/s^3",
+     .help = "limit along the path"},
+    AXIS_JERK_ARG("x", "mm/s^3"),
+    AXIS_JERK_ARG("y", "mm/s^3"),
+    AXIS_JERK_ARG("z", "mm/s^3"),
+    AXIS_JERK_ARG("a", "deg/s^3"),
+};
+
+static const basic_arg_spec_t arc_legacy_args[] = {
+    {"on", BASIC_ARG_INTEGER, .min = 0, .max = 1,
+     .help = "1: the A word of G2 and G3 is ignored, 0: A turns along with the arc"},
+};
+
+static const basic_command_t commands[] = {
+    {"STEPPER INIT", ARGS(init_args), configure_init, "Prepares the motion system"},
+    {"STEPPER AXIS", ARGS(axis_args), configure_axis, "Configures an axis"},
+    {"STEPPER LIMITS", ARGS(limits_args), configure_limits, "Sets the soft limits of an axis"},
+    {"STEPPER SPINDLE", ARGS(spindle_args), configure_spindle, "Sets the spindle output"},
+    {"STEPPER JUNCTION", ARGS(junction_args), configure_junction, "Sets the junction deviation"},
+    {"STEPPER SCURVE", ARGS(scurve_args), configure_scurve,
+     "Chooses S-curves or trapezoids for what is queued from now on"},
+    {"STEPPER JERK", ARGS(jerk_args), configure_jerk,
+     "Sets how fast the acceleration of S-curves may change; for what is queued from now on"},
+    {"STEPPER ARC LEGACY", ARGS(arc_legacy_args), configure_arc_legacy,
+     "Chooses what A means on an arc"},
+};
+
+const basic_rows_t stepper_config_rows = {COMMANDS(commands)};
