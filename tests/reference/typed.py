@@ -1,0 +1,227 @@
+"""A session at the prompt of the host program, in virtual time, with a world around the pins.
+
+`typed()` types lines, applies edges to inputs at their times and brings back the answer to each
+line, the time at which it was typed and every edge of the outputs. `typed_with_switches()` does the
+same with limit switches that are pressed by the axes themselves.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from stepmite.trace import AxisPins, AxisTrace, Edges, axis_trace
+
+STEPMITE = Path(__file__).resolve().parents[2] / "build" / "host" / "stepmite"
+DEADLINE_S = 120.0  # wall time after which a session counts as hung
+
+WAIT = "DO : PAUSE 1 : LOOP WHILE PEEK(STEPPER ACTIVE) = 1"
+"""The line that waits for the end of motion."""
+
+STEP_X, DIR_X, ENABLE_X = 2, 3, 4
+STEP_Y, DIR_Y, ENABLE_Y = 5, 6, 7
+STEP_Z, DIR_Z, ENABLE_Z = 8, 9, 10
+STEP_A, DIR_A, ENABLE_A = 11, 12, 13
+SPINDLE, ESTOP = 14, 22
+X_MIN, Y_MIN, Z_MIN, X_MAX, Y_MAX, Z_MAX = 16, 17, 18, 19, 20, 21
+
+SCALES = {"X": 80, "Y": 100, "Z": 400, "A": 10}
+"""Steps per mm or degree of AXES."""
+
+AXES = [
+    f"STEPPER AXIS X,GP{STEP_X},GP{DIR_X},GP{ENABLE_X},,80,6000,500",
+    f"STEPPER AXIS Y,GP{STEP_Y},GP{DIR_Y},GP{ENABLE_Y},,100,6000,500",
+    f"STEPPER AXIS Z,GP{STEP_Z},GP{DIR_Z},GP{ENABLE_Z},,400,3000,500",
+    f"STEPPER AXIS A,GP{STEP_A},GP{DIR_A},GP{ENABLE_A},,10,36000,5000",
+]
+SET_UP = ["STEPPER INIT ,64", *AXES]
+READY = [*SET_UP, "STEPPER POSITION HOME", "STEPPER RUN"]
+"""Four axes at zero of the machine, armed."""
+
+PINS = {
+    "X": AxisPins("X", STEP_X, DIR_X, False, 80.0),
+    "Y": AxisPins("Y", STEP_Y, DIR_Y, False, 100.0),
+    "Z": AxisPins("Z", STEP_Z, DIR_Z, False, 400.0),
+    "A": AxisPins("A", STEP_A, DIR_A, False, 10.0),
+}
+
+
+@dataclass(frozen=True)
+class Event:
+    """An edge that the world applies to an input."""
+
+    ms: float
+    gpio: int
+    level: int
+
+    def row(self) -> str:
+        return f"{round(self.ms * 1e6)},{self.gpio},{self.level}"
+
+
+@dataclass(frozen=True)
+class Session:
+    """What came of the lines."""
+
+    answers: list[str]
+    """The answer to each line, its lines joined by \\n."""
+    typed_ms: list[float]
+    """When each line had been carried out."""
+    edges: Edges
+    output: str
+    """All of the screen."""
+
+    @property
+    def last(self) -> str:
+        return self.answers[-1]
+
+    def number(self, index: int = -1) -> float:
+        """The number that a line has printed last."""
+        return float(self.answers[index].split()[-1])
+
+    def numbers(self, index: int = -1) -> list[float]:
+        """All numbers that a line has printed."""
+        return [float(text) for text in self.answers[index].split()]
+
+    def errors(self) -> list[str]:
+        """The errors of all lines."""
+        return [error for error in map(error_of, self.answers) if error]
+
+    def axis(self, name: str) -> AxisTrace:
+        """The motion of an axis."""
+        return axis_trace(self.edges, PINS[name])
+
+    def end(self, name: str) -> float:
+        """Where the motor of an axis stands, counted from the start, in mm or degrees."""
+        return self.axis(name).end_steps() / PINS[name].steps_per_unit
+
+    def level_at(self, gpio: int, ms: float) -> int:
+        """The level of an output at a time; low before its first edge."""
+        mine = self.edges.of(gpio)
+        at = int(np.searchsorted(mine.time_ns, ms * 1e6, side="right"))
+        return int(mine.level[at - 1]) if at > 0 else 0
+
+    def level(self, gpio: int) -> int:
+        """The level of an output at the end."""
+        return self.level_at(gpio, 1e12)
+
+
+def error_of(answer: str) -> str:
+    """The error of an answer; empty if it has none."""
+    found = re.search(r"^Error : (.*)$", answer, re.MULTILINE)
+    return found[1] if found else ""
+
+
+def typed(
+    folder: Path, *lines: str, events: list[Event] | tuple = (), code: int | None = 0
+) -> Session:
+    """Type the lines one after the other; `events` happen at their times."""
+    trace, inputs = folder / "edges.csv", folder / "events.csv"
+    rows = sorted(events, key=lambda event: event.ms)
+    inputs.write_text("time_ns,gpio,level\n" + "".join(event.row() + "\n" for event in rows))
+    text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
+    done = subprocess.run(
+        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs],
+        input=text.encode(),
+        capture_output=True,
+        timeout=DEADLINE_S,
+        check=False,
+    )
+    output = done.stdout.decode(errors="replace").replace("\r", "")
+    assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
+    answers, times, shown = [], [], output
+    for i, line in enumerate(lines):
+        found = re.search(rf'^> \?"<{i}>";TIMER\n<{i}> ([\d.e+]+)\n', shown, re.MULTILINE)
+        assert found, f"no prompt after {line!r}: {shown[-1500:]}"
+        before, shown = shown[: found.start()], shown[found.end() :]
+        answers.append(before.partition(f"> {line}\n")[2].removesuffix("\n"))
+        times.append(float(found[1]))
+    return Session(answers, times, Edges.read(trace), output)
+
+
+def program(folder: Path, text: str, *, keys: str = "", code: int | None = 0) -> Session:
+    """Run a BASIC program from a file; its whole output is the one answer."""
+    source, trace = folder / "program.bas", folder / "edges.csv"
+    source.write_text(text)
+    done = subprocess.run(
+        [STEPMITE, "--virtual", "--trace", trace, source],
+        input=keys.encode(),
+        capture_output=True,
+        timeout=DEADLINE_S,
+        check=False,
+    )
+    output = done.stdout.decode(errors="replace").replace("\r", "")
+    assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
+    _, _, printed = output.partition("\n\n")  # behind the banner
+    return Session([printed.rstrip("\n")], [0.0], Edges.read(trace), output)
+
+
+# ---- A world with switches -----------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Switch:
+    """A switch that an axis presses at and beyond a place (mm from where it stood at power-up)."""
+
+    gpio: int
+    axis: str
+    at_mm: float
+    below: bool = True
+    """Pressed at `at_mm` and below; else at and above."""
+    active_high: bool = False
+
+    def pressed(self, steps: np.ndarray) -> np.ndarray:
+        at = round(self.at_mm * PINS[self.axis].steps_per_unit)
+        return steps <= at if self.below else steps >= at
+
+    def level(self, pressed: bool) -> int:
+        return int(pressed == self.active_high)
+
+    def events(self, session: Session) -> list[Event]:
+        """What the switch does in a session, from power-up on."""
+        axis = session.axis(self.axis)
+        states = self.pressed(np.concatenate([[0], axis.steps()]))
+        changes = np.flatnonzero(np.diff(states.astype(int)))
+        first = Event(0.0, self.gpio, self.level(bool(states[0])))
+        # A microsecond behind the step: the place is reached when the motor is there.
+        return [first] + [
+            Event((axis.step_ns[i] + 1000) / 1e6, self.gpio, self.level(bool(states[i + 1])))
+            for i in changes
+        ]
+
+
+def typed_with_switches(
+    folder: Path,
+    *lines: str,
+    switches: list[Switch],
+    events: list[Event] | tuple = (),
+    code: int | None = 0,
+) -> Session:
+    """As typed(), with switches that the motors press.
+
+    The world is found step by step: a session is valid up to the first edge that a switch would
+    have made and the session was not told of. With that edge told it is run again.
+    """
+    told: list[Event] = [
+        Event(0.0, switch.gpio, switch.level(bool(switch.pressed(np.array([0]))[0])))
+        for switch in switches
+    ]
+    for _ in range(200):
+        session = typed(folder, *lines, events=[*told, *events], code=None)
+        wanted = sorted(
+            (event for switch in switches for event in switch.events(session)),
+            key=lambda event: event.ms,
+        )
+        told.sort(key=lambda event: event.ms)
+        if wanted == told:
+            assert code is None or code == 0
+            return session
+        same = 0
+        while same < min(len(wanted), len(told)) and wanted[same] == told[same]:
+            same += 1
+        assert same < len(wanted), "a switch was told of an edge that it does not make"
+        told = wanted[: same + 1]
+    raise AssertionError("the switches did not come to rest")
