@@ -2,6 +2,7 @@
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
+#include "stepper/home_config.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
@@ -48,6 +49,7 @@ static void reset_motion(void) {
         .jerk = (float)STEPPER_JERK_DEFAULT,
     };
     stepper_override(100, 100);
+    home_config_reset();
 }
 
 err_t stepper_init(const stepper_init_t *config) {

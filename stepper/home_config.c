@@ -1,0 +1,123 @@
+// How each axis is homed and in which order. Context: main loop.
+#include "stepper/home_config.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "stepper/axis.h"
+#include "stepper/machine.h"
+
+#define SEEK_PART 0.5 // of the axis's speed
+#define SEEK_MAX_MM_MIN 3000.0
+#define LATCH_PART 0.1 // of seek
+#define LATCH_MIN_MM_MIN 60.0
+#define TRAVEL_PART 1.5 // of the soft limits' span
+#define TRAVEL_MM 1000.0
+
+// As stepper_home_t, in half the memory; the position is rounded to steps anyway.
+typedef struct {
+    float seek, latch, pull_off_mm, max_travel_mm, position_mm;
+    stepper_home_end_t end;
+} home_t;
+
+static struct {
+    home_t axes[STEPPER_HOME_AXES];
+    uint8_t groups[STEPPER_HOME_AXES]; // 0: no more
+} homes;
+
+void home_config_reset(void) {
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        homes.axes[axis] = (home_t){NAN, NAN, NAN, NAN, NAN, STEPPER_HOME_AUTO};
+    }
+    memcpy(homes.groups, (const uint8_t[]){1u << AXIS_Z, 1u << AXIS_X, 1u << AXIS_Y},
+           sizeof homes.groups);
+}
+
+err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config) {
+    err_t err = machine_check_at_rest();
+    if (err == ERR_OK) {
+        err = machine_check_axis(axis);
+    }
+    if (err == ERR_OK) {
+        homes.axes[axis] = (home_t){
+            .seek = (float)config->seek,
+            .latch = (float)config->latch,
+            .pull_off_mm = (float)config->pull_off_mm,
+            .max_travel_mm = (float)config->max_travel_mm,
+            .position_mm = (float)config->position_mm,
+            .end = config->end,
+        };
+    }
+    return err;
+}
+
+// Limit inputs do not exist yet, so no axis has a switch.
+bool home_config_switch(axis_id_t axis, home_switch_t *found) {
+    (void)axis;
+    *found = (home_switch_t){0};
+    return false;
+}
+
+static double given_or(float given, double otherwise) {
+    return isnan(given) ? otherwise : (double)given;
+}
+
+void stepper_home_settings(axis_id_t axis, stepper_home_t *settings) {
+    const home_t *home = &homes.axes[axis];
+    const axis_t *a = &axes[axis];
+    home_switch_t found;
+    if (home_config_switch(axis, &found)) {
+        settings->end = found.max ? STEPPER_HOME_MAX : STEPPER_HOME_MIN;
+    } else {
+        settings->end = home->end;
+    }
+    double seek = fmin(SEEK_PART * 60.0 * (double)a->velocity, SEEK_MAX_MM_MIN);
+    settings->seek = given_or(home->seek, seek);
+    double latch = fmin(fmax(LATCH_PART * settings->seek, LATCH_MIN_MM_MIN), settings->seek);
+    settings->latch = given_or(home->latch, latch);
+    settings->pull_off_mm = given_or(home->pull_off_mm, a->config.home_backoff_mm);
+    double travel = a->limited ? TRAVEL_PART * (a->max - a->min) : TRAVEL_MM;
+    settings->max_travel_mm = given_or(home->max_travel_mm, travel);
+    settings->position_mm = given_or(home->position_mm, 0.0);
+}
+
+err_t stepper_home_order(const uint8_t groups[STEPPER_HOME_AXES]) {
+    err_t err = machine_check_at_rest();
+    uint32_t seen = 0;
+    for (unsigned n = 0; n < STEPPER_HOME_AXES && err == ERR_OK; n++) {
+        if ((seen & groups[n]) != 0) {
+            err = err_raise(ERR_HOME_ORDER, NULL);
+        }
+        seen |= groups[n];
+    }
+    if (err == ERR_OK) {
+        memcpy(homes.groups, groups, sizeof homes.groups);
+    }
+    return err;
+}
+
+void stepper_home_groups(uint8_t groups[STEPPER_HOME_AXES]) {
+    memcpy(groups, homes.groups, sizeof homes.groups);
+}
+
+// An axis without a second approach gets its position from the first one, in which the axes of a
+// group would disturb each other: it is homed alone.
+static uint32_t alone_if_it_must(uint32_t group) {
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        stepper_home_t settings;
+        stepper_home_settings(axis, &settings);
+        if (((group >> axis) & 1) && settings.latch <= 0.0) {
+            return 1u << axis;
+        }
+    }
+    return group;
+}
+
+uint32_t home_config_next(uint32_t left) {
+    for (unsigned n = 0; n < STEPPER_HOME_AXES; n++) {
+        if ((homes.groups[n] & left) != 0) {
+            return alone_if_it_must(homes.groups[n] & left);
+        }
+    }
+    return left & (0u - left); // the lowest
+}

@@ -1,0 +1,21 @@
+// How each axis is homed and in which order. Inside stepper/ only. Context: main loop.
+#ifndef STEPPER_HOME_CONFIG_H
+#define STEPPER_HOME_CONFIG_H
+
+#include "stepper/stepper_homing.h"
+
+// As after INIT: all defaults.
+void home_config_reset(void);
+
+// The switch that the axis homes to. False: it has none.
+typedef struct {
+    bool max;       // at the upper end
+    uint32_t pin;   // mask
+    bool high;      // its level when it is closed
+} home_switch_t;
+bool home_config_switch(axis_id_t axis, home_switch_t *found);
+
+// The axes of `left` (mask, not 0) that are homed next, together.
+uint32_t home_config_next(uint32_t left);
+
+#endif

@@ -1,0 +1,88 @@
+// Homing and probing: cycles of several moves that end at an input. A further face of stepper/,
+// beside stepper.h. A cycle runs in the background, through the same queue, ramps and S-curves as
+// every move: stepper_background() takes it from one move to the next. While one is under way new
+// moves and jogs are refused. Whoever has to wait for its end asks stepper_cycle() and reads
+// stepper_cycle_result() then. Context: main loop.
+#ifndef STEPPER_HOMING_H
+#define STEPPER_HOMING_H
+
+#include "stepper/stepper.h"
+
+typedef enum { STEPPER_CYCLE_NONE, STEPPER_CYCLE_HOMING, STEPPER_CYCLE_PROBING } stepper_cycle_t;
+
+// The cycle under way.
+stepper_cycle_t stepper_cycle(void);
+
+// How the last cycle ended: ERR_OK, or its error, raised anew. ERR_OK while one is under way.
+err_t stepper_cycle_result(void);
+
+// Takes what is under way on; call it often, and while waiting.
+void stepper_background(void);
+
+// ---- Homing -------------------------------------------------------------------------------------
+// A group of axes goes to its switches at the seek feed until the last of them has closed, backs
+// off, goes there again at the latch feed, and pulls off. An axis then stands at its home position,
+// `pull_off` away from the place where its switch closed, to the step. A switch that is pressed at
+// the start is left first.
+
+#define STEPPER_HOME_AXES 3u // X, Y, Z
+
+typedef enum { STEPPER_HOME_AUTO, STEPPER_HOME_MIN, STEPPER_HOME_MAX } stepper_home_end_t;
+
+// NAN stands for the default, which may follow from the axis's configuration.
+typedef struct {
+    stepper_home_end_t end; // auto: the minimum, unless only the maximum has a switch
+    double seek;            // mm/min, > 0; half the axis's speed, at most 3000
+    double latch;           // mm/min, >= 0; a tenth of seek, 60 at least. 0: no second approach
+    double pull_off_mm;     // > 0; home_backoff_mm of the axis
+    double max_travel_mm;   // > 0; 1.5 times what the soft limits span, or 1000 without any
+    double position_mm;     // machine position where homing ends; 0
+} stepper_home_t;
+
+// Sets all of it. Errors: not initialised, axis not configured, cycle under way.
+err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config);
+
+// What would be used now, with the defaults filled in. `end` stays auto if the axis has no switch.
+void stepper_home_settings(axis_id_t axis, stepper_home_t *settings);
+
+// Which axes are homed one after another and which together. `groups` are masks of axes (bit 0: X),
+// the first one first; axes in no group follow one by one. Default: Z, X, Y. Error: an axis in two
+// groups.
+err_t stepper_home_order(const uint8_t groups[STEPPER_HOME_AXES]);
+void stepper_home_groups(uint8_t groups[STEPPER_HOME_AXES]);
+
+// Begins to home `axes` (bit 0: X; 0: all that have a switch). What is queued is executed before;
+// when not armed, the drivers are turned on, and stay on. The position need not be known. Errors:
+// not initialised, an axis not configured or without a switch, moves wait for STEPPER RUN, E-STOP,
+// another cycle, a jog or a stop is under way.
+err_t stepper_home(uint32_t axes);
+
+// For STATUS: the axes of the group that is homed now, and what they do ("approaching").
+const char *stepper_homing_phase(uint32_t *axes);
+
+// Called with `on` before each approach of `axes` to their switches, and without behind it. A
+// driver that finds the end of an axis without a switch is armed there. NULL: nobody.
+void stepper_homing_set_hook(void (*arm)(uint32_t axes, bool on));
+
+// ---- Probing ------------------------------------------------------------------------------------
+
+// The probe's input; active low with pull-up, or high with pull-down if inverted. PINS_NONE takes
+// it away. Refused while anything moves.
+err_t stepper_probe_pin(uint8_t gpio, bool invert);
+
+// Moves towards move->target until the probe makes contact, or with `away` until it has lost it;
+// what is queued is executed before. Then brakes. The position of the change is kept, to the step.
+// `must_change`: reaching the target without a change is the cycle's error; the probe's being in
+// the wanted state at the start always is. Errors: as stepper_move() and stepper_home(); no probe
+// pin, not armed, nothing of X, Y, Z to move.
+err_t stepper_probe(const stepper_move_t *move, bool away, bool must_change);
+
+// Where the probe changed in the last probing, machine coordinates; where the machine stood at its
+// end, if it did not change. False: no change, or no probing yet.
+bool stepper_probed(double position[AXIS_COUNT]);
+
+// The configuration; PINS_NONE: there is no probe. And whether it has contact now.
+uint8_t stepper_probe_config(bool *invert);
+bool stepper_probe_contact(void);
+
+#endif
