@@ -33,12 +33,20 @@ static struct {
     bool idle_off;
     bool drivers_on;
 
-    bool begun;          // with the front block
-    uint32_t dwell_left; // ticks, of a dwell
+    bool begun;            // with the front block
+    bool standing;         // no motion, or one that is held; false only while `begun`
+    bool starting;         // what this fill writes sets off from a standstill
+    uint32_t enough_ticks; // this fill ends when so many are ahead
+    uint32_t dwell_left;   // ticks, of a dwell
 } governor;
 
-static void finish_block(void) {
+static void stand(void) {
     governor.begun = false;
+    governor.standing = true;
+}
+
+static void finish_block(void) {
+    stand();
     planner_release();
 }
 
@@ -51,7 +59,7 @@ static void follow_motors(void) {
 }
 
 static void drop_blocks(void) {
-    governor.begun = false;
+    stand();
     governor.stopping = false;
     travel_stand();
     planner_release_all();
@@ -59,7 +67,22 @@ static void drop_blocks(void) {
     follow_motors();
 }
 
+// A motion may begin with segments as short as a tick, behind others that end at a standstill. It
+// counts as ahead only from here on.
+static void set_off(void) {
+    governor.starting = true;
+    governor.enough_ticks += segment_writer_spare_ticks();
+}
+
+// With the front block, or goes on with it after a hold.
 static void begin_block(const block_t *block) {
+    if (block_is_move(block)) {
+        set_off();
+        governor.standing = false;
+    }
+    if (governor.begun) {
+        return;
+    }
     governor.begun = true;
     planner_start();
     if (block_is_move(block)) {
@@ -74,9 +97,10 @@ static void advance_move(float ticks) {
     case TRAVEL_GOES_ON:
         break;
     case TRAVEL_ARRIVED:
-        governor.begun = false;
+        stand();
         break;
     case TRAVEL_STOPPED:
+        governor.standing = true;
         if (governor.stopping) {
             drop_blocks();
         }
@@ -117,6 +141,9 @@ static bool advance(uint32_t slice_ticks) {
         return true;
     }
     if (jog_active()) {
+        if (jog_speed() <= 0.0f) {
+            set_off();
+        }
         jog_advance();
         if (!jog_active()) {
             follow_motors();
@@ -126,7 +153,7 @@ static bool advance(uint32_t slice_ticks) {
     if (front == NULL || (governor.holding && travel_speed() <= 0.0f)) {
         return false;
     }
-    if (!governor.begun) {
+    if (governor.standing) {
         begin_block(front);
     }
     switch (front->kind) {
@@ -146,24 +173,29 @@ static bool advance(uint32_t slice_ticks) {
     return true;
 }
 
-// So long that what is ahead stays within AHEAD_TICKS.
-static uint32_t slice_ticks(void) {
-    uint32_t ahead = segment_writer_ahead_ticks();
+// So long that what is ahead stays within AHEAD_TICKS; `spare_ticks` are, and what the tick is at.
+static uint32_t slice_ticks(uint32_t spare_ticks) {
+    uint32_t ahead = spare_ticks + segment_writer_oldest_ticks();
     if (ahead + SLICE_TICKS <= AHEAD_TICKS) {
         return SLICE_TICKS;
     }
     return ahead + SLICE_TICKS_MIN <= AHEAD_TICKS ? AHEAD_TICKS - ahead : SLICE_TICKS_MIN;
 }
 
-// The tick may be running although there is nothing to execute. A motion is shown to it only when
-// there is enough to go on with: its first segments can be as short as a tick.
+// The tick may be running although there is nothing to execute, or only what ends at a standstill.
+// A motion is shown to it only when there is enough to go on with.
 void governor_fill(uint32_t ticks) {
-    bool starting = ring_used(&segments.ring) == 0;
+    bool reacting = ticks <= SPARE_TICKS;
+    governor.enough_ticks = ticks;
+    governor.starting = ring_used(&segments.ring) == 0;
     bool more = governor.armed;
-    while (more && segment_writer_spare_ticks() < ticks && segment_writer_has_room()) {
-        bool reacting = ticks <= SPARE_TICKS;
-        more = advance(reacting ? slice_ticks() : SLICE_TICKS);
-        if (!starting) {
+    while (more) {
+        uint32_t spare_ticks = segment_writer_spare_ticks();
+        if (spare_ticks >= governor.enough_ticks || !segment_writer_has_room()) {
+            break;
+        }
+        more = advance(reacting ? slice_ticks(spare_ticks) : SLICE_TICKS);
+        if (!governor.starting) {
             segment_writer_publish();
         }
     }
@@ -189,6 +221,7 @@ void governor_reset(const int32_t steps[AXIS_COUNT]) {
     governor_pins_t pins = governor.pins;
     memset(&governor, 0, sizeof governor);
     governor.pins = pins;
+    governor.standing = true;
     blocks.executed = 0;
     travel_stand();
     jog_drop();

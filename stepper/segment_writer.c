@@ -109,11 +109,11 @@ uint32_t segment_writer_spare_ticks(void) {
     return writer.end_ticks - oldest->end_ticks;
 }
 
-uint32_t segment_writer_ahead_ticks(void) {
+uint32_t segment_writer_oldest_ticks(void) {
     if (ring_used(&segments.ring) + writer.unpublished == 0) {
         return 0;
     }
-    return segment_writer_spare_ticks() + segments.slots[segments.ring.take_slot].ticks;
+    return segments.slots[segments.ring.take_slot].ticks;
 }
 
 bool segment_writer_has_room(void) {

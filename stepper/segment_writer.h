@@ -37,10 +37,10 @@ void segment_writer_end_steps(int32_t steps[AXIS_COUNT]);
 // Takes the motor position as the exact position, after a stop between two steps.
 void segment_writer_settle(void);
 
-// Ticks behind the segment that the tick is at, and with all of that one; room for what one call of
+// Ticks behind the segment that the tick is at, and those of that one; room for what one call of
 // the functions above can write.
 uint32_t segment_writer_spare_ticks(void);
-uint32_t segment_writer_ahead_ticks(void);
+uint32_t segment_writer_oldest_ticks(void);
 bool segment_writer_has_room(void);
 
 #endif
