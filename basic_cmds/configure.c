@@ -2,6 +2,7 @@
 #include "basic_cmds/configure.h"
 
 #include "gcode/gcode.h"
+#include "stepper/rules.h"
 #include "stepper/stepper.h"
 
 err_t configure_init(const basic_arg_t *args, size_t count) {
@@ -81,9 +82,9 @@ err_t configure_jerk(const basic_arg_t *args, size_t count) {
 
 err_t configure_arc_legacy(const basic_arg_t *args, size_t count) {
     (void)count;
-    if (stepper_active() < 0) {
-        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    err_t err = rules_check(RULES_DO_SETTING);
+    if (err == ERR_OK) {
+        gcode_set_arc_legacy(args[0].integer != 0);
     }
-    gcode_set_arc_legacy(args[0].integer != 0);
-    return ERR_OK;
+    return err;
 }

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "gcode/gcode.h"
+#include "stepper/rules.h"
 #include "stepper/stepper.h"
 
 // The mode may stand with or without the comma that the reference puts before it.
@@ -39,11 +40,11 @@ err_t control_clear(const basic_arg_t *args, size_t count) {
 err_t control_stop(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
-    if (stepper_active() < 0) {
-        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
+    err_t err = rules_check(RULES_DO_STOP);
+    if (err == ERR_OK) {
+        stepper_stop();
     }
-    stepper_stop();
-    return ERR_OK;
+    return err;
 }
 
 err_t control_hold(const basic_arg_t *args, size_t count) {
@@ -59,11 +60,12 @@ err_t control_resume(const basic_arg_t *args, size_t count) {
 }
 
 static err_t show_override(void) {
+    err_t err = rules_check(RULES_DO_SETTING);
+    if (err != ERR_OK) {
+        return err;
+    }
     stepper_status_t status;
     stepper_status(&status);
-    if (!status.initialized) {
-        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
-    }
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
     return ERR_OK;

@@ -8,6 +8,7 @@
 #include "gcode/gcode_arc.h"
 #include "gcode/gcode_lexer.h"
 #include "gcode/gcode_words.h"
+#include "stepper/rules.h"
 
 static struct {
     modal_t modal;
@@ -55,10 +56,9 @@ static err_t move(const line_t *line) {
 
 // G92: the last commanded position gets these coordinates; moves that wait keep their way.
 static err_t set_offsets(const line_t *line) {
-    stepper_status_t status;
-    stepper_status(&status);
-    if (!status.position_known || status.stopping) {
-        return err_raise(status.stopping ? ERR_STEPPER_STOPPING : ERR_POSITION_UNKNOWN, NULL);
+    err_t err = rules_check(RULES_DO_OFFSET);
+    if (err != ERR_OK) {
+        return err;
     }
     double target[AXIS_COUNT];
     stepper_target(target);
@@ -88,11 +88,11 @@ static err_t carry_out(const line_t *line) {
 }
 
 err_t gcode_words(const gcode_word_t *words, size_t count) {
-    if (stepper_active() < 0) {
-        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
-    }
     line_t line;
-    err_t err = gcode_words_read(&line, &gcode.modal, words, count);
+    err_t err = rules_check(RULES_DO_GCODE);
+    if (err == ERR_OK) {
+        err = gcode_words_read(&line, &gcode.modal, words, count);
+    }
     if (err == ERR_OK) {
         err = carry_out(&line);
     }

@@ -9,9 +9,9 @@ void home_config_reset(void);
 
 // The switch that the axis homes to. False: it has none.
 typedef struct {
-    bool max;       // at the upper end
-    uint32_t pin;   // mask
-    bool high;      // its level when it is closed
+    bool max;     // at the upper end
+    uint32_t pin; // mask
+    bool high;    // its level when it is closed
 } home_switch_t;
 bool home_config_switch(axis_id_t axis, home_switch_t *found);
 

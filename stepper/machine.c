@@ -6,6 +6,7 @@
 #include "stepper/jog.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
+#include "stepper/rules.h"
 #include "stepper/step_isr.h"
 
 #define ENDING_US 5000u // the governor is at most half of it ahead
@@ -25,6 +26,9 @@ void machine_follow_motors(void) {
 }
 
 void machine_follow_stops(void) {
+    if (!machine.initialized) {
+        return;
+    }
     // Once, and at once: telling the user may take its time, and a position set until then stays
     // known.
     if (governor_estop_event()) {
@@ -43,16 +47,23 @@ bool machine_stopping(void) {
     return governor_stopping() || governor_drops() != machine.drops_seen;
 }
 
-bool machine_at_rest(void) {
-    return !governor_working() && ring_used(&blocks.ring) == 0;
+void machine_arm(void) {
+    hal_governor_lock();
+    governor_arm(machine.idle == STEPPER_IDLE_DISABLE);
+    hal_governor_request();
+    hal_governor_unlock();
 }
 
 err_t machine_check_initialized(void) {
-    if (!machine.initialized) {
-        return err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL);
-    }
-    machine_follow_stops();
-    return ERR_OK;
+    return rules_check(RULES_DO_STOP);
+}
+
+err_t machine_check_at_rest(void) {
+    return rules_check(RULES_DO_PINS);
+}
+
+err_t machine_check_queue(void) {
+    return rules_check(RULES_DO_ENTRY);
 }
 
 bool machine_executing(void) {
@@ -72,33 +83,10 @@ void machine_await_end(void) {
     }
 }
 
-err_t machine_check_at_rest(void) {
-    machine_await_end();
-    err_t err = machine_check_initialized();
-    if (err == ERR_OK && !machine_at_rest()) {
-        err = err_raise(ERR_STEPPER_BUSY, NULL);
-    }
-    return err;
-}
-
 err_t machine_check_axis(axis_id_t axis) {
     return axes[axis].configured
                ? ERR_OK
                : err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
-}
-
-err_t machine_check_queue(void) {
-    err_t err = machine_check_initialized();
-    if (err != ERR_OK) {
-        return err;
-    }
-    if (machine_stopping()) {
-        return err_raise(ERR_STEPPER_STOPPING, NULL);
-    }
-    if (jog_active()) {
-        return err_raise(ERR_JOGGING, NULL);
-    }
-    return moves_free() > 0 ? ERR_OK : err_raise(ERR_GCODE_BUFFER_FULL, NULL);
 }
 
 bool machine_estop_asserted(void) {

@@ -8,6 +8,8 @@
 typedef struct {
     bool initialized;
     bool position_known;
+    bool alarm;        // a safety input has stopped the machine, not yet acknowledged
+    bool limit_active; // the machine stands on a limit switch and may only leave it
     bool estop_untold; // a safety input has stopped the machine; stepper_next_event() tells it
     stepper_idle_t idle;
     stepper_init_t config;
@@ -31,8 +33,8 @@ void machine_follow_stops(void);
 // A stop is under way; the planner does not know yet where the machine will stand.
 bool machine_stopping(void);
 
-// Nothing moves and nothing waits.
-bool machine_at_rest(void);
+// Turns the drivers on and lets what is queued be executed.
+void machine_arm(void);
 
 // There is motion, or the tick has something to do besides watching the E-STOP input.
 bool machine_executing(void);
@@ -44,8 +46,8 @@ bool machine_estop_asserted(void);
 
 // What must be true before a call may do its work; each raises its error.
 err_t machine_check_initialized(void);
-err_t machine_check_at_rest(void); // and initialised
-err_t machine_check_queue(void);   // initialised, not stopping, a slot free
+err_t machine_check_at_rest(void);
+err_t machine_check_queue(void);
 err_t machine_check_axis(axis_id_t axis);
 
 #endif

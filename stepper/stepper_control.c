@@ -4,6 +4,7 @@
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
+#include "stepper/rules.h"
 
 // Planning more blocks than this anew holds the governor off for longer than it is ahead; for a
 // full queue it takes less than this.
@@ -11,34 +12,27 @@
 #define REPLAN_TICKS 300u
 
 err_t stepper_run(stepper_idle_t idle) {
-    err_t err = machine_check_initialized();
-    if (err != ERR_OK) {
-        return err;
+    err_t err = rules_check(RULES_DO_RUN);
+    if (err == ERR_OK) {
+        machine.idle = idle;
+        machine_arm();
     }
-    if (machine_estop_asserted()) {
-        return err_raise(ERR_ESTOP_ACTIVE, NULL);
-    }
-    machine.idle = idle;
-    hal_governor_lock();
-    governor_arm(idle == STEPPER_IDLE_DISABLE);
-    hal_governor_request();
-    hal_governor_unlock();
-    return ERR_OK;
+    return err;
 }
 
-err_t stepper_clear(void) {
-    err_t err = machine_check_initialized();
-    if (err != ERR_OK) {
-        return err;
-    }
-    if (governor_working()) {
-        return err_raise(ERR_CLEAR_WHILE_ACTIVE, NULL);
-    }
+static void drop_queue(void) {
     hal_governor_lock();
     planner_reset(machine.config.blocks);
     hal_governor_unlock();
     machine_follow_motors();
-    return ERR_OK;
+}
+
+err_t stepper_clear(void) {
+    err_t err = rules_check(RULES_DO_CLEAR);
+    if (err == ERR_OK) {
+        drop_queue();
+    }
+    return err;
 }
 
 void stepper_stop(void) {
@@ -47,7 +41,7 @@ void stepper_stop(void) {
     }
     if (!governor_working()) {
         stepper_hold(false);
-        stepper_clear();
+        drop_queue();
         return;
     }
     hal_governor_lock();
@@ -57,7 +51,7 @@ void stepper_stop(void) {
 }
 
 err_t stepper_hold(bool hold) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_STOP);
     if (err == ERR_OK) {
         hal_governor_lock();
         governor_hold(hold);
@@ -68,7 +62,7 @@ err_t stepper_hold(bool hold) {
 }
 
 err_t stepper_override(int feed_percent, int rapid_percent) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
         machine.feed_override = feed_percent;
         machine.rapid_override = rapid_percent;
@@ -87,7 +81,7 @@ err_t stepper_override(int feed_percent, int rapid_percent) {
 }
 
 err_t stepper_estop(void) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_STOP);
     if (err != ERR_OK) {
         return err;
     }
@@ -110,7 +104,7 @@ static void stand_at(const int32_t steps[AXIS_COUNT]) {
 }
 
 err_t stepper_set_home(void) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_PLACE);
     if (err == ERR_OK) {
         stand_at((const int32_t[AXIS_COUNT]){0});
     }
@@ -118,7 +112,7 @@ err_t stepper_set_home(void) {
 }
 
 err_t stepper_set_position(axis_id_t axis, double position) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_PLACE);
     if (err == ERR_OK) {
         err = machine_check_axis(axis);
     }

@@ -6,26 +6,11 @@
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/machine.h"
-#include "stepper/planner.h"
+#include "stepper/rules.h"
 
 static err_t check(axis_id_t axis) {
-    err_t err = machine_check_initialized();
-    if (err == ERR_OK) {
-        err = machine_check_axis(axis);
-    }
-    if (err != ERR_OK) {
-        return err;
-    }
-    if (!governor_armed()) {
-        return err_raise(ERR_NOT_ARMED, NULL);
-    }
-    if (machine_stopping()) {
-        return err_raise(ERR_STEPPER_STOPPING, NULL);
-    }
-    if (!jog_active() && ring_used(&blocks.ring) > 0) {
-        return err_raise(ERR_JOG_WHILE_ACTIVE, NULL);
-    }
-    return ERR_OK;
+    err_t err = rules_check(RULES_DO_JOG);
+    return err == ERR_OK ? machine_check_axis(axis) : err;
 }
 
 // Where the jog ends: within the soft limits, but an axis that stands outside them is not pulled
@@ -66,7 +51,7 @@ err_t stepper_jog(axis_id_t axis, double distance, double feed) {
 }
 
 err_t stepper_jog_stop(void) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_STOP);
     if (err == ERR_OK) {
         hal_governor_lock();
         jog_stop();

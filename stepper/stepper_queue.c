@@ -5,6 +5,7 @@
 #include "stepper/axis.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
+#include "stepper/rules.h"
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
 
@@ -42,18 +43,10 @@ static err_t check_target(const stepper_move_t *move, const double from[AXIS_COU
     return err;
 }
 
-static err_t check_move(void) {
-    err_t err = machine_check_queue();
-    if (err == ERR_OK && !machine.position_known) {
-        err = err_raise(ERR_POSITION_UNKNOWN, NULL);
-    }
-    return err;
-}
-
 err_t stepper_move(const stepper_move_t *move) {
     double from[AXIS_COUNT];
     int32_t steps[AXIS_COUNT];
-    err_t err = check_move();
+    err_t err = rules_check(RULES_DO_MOVE);
     if (err == ERR_OK) {
         moves_target(from);
         err = check_target(move, from, steps);
@@ -80,7 +73,7 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
     double from[AXIS_COUNT];
     int32_t steps[AXIS_COUNT];
     arc_t arc;
-    err_t err = check_move();
+    err_t err = rules_check(RULES_DO_MOVE);
     for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
         err = machine_check_axis(wanted->plane[n]);
     }
@@ -102,7 +95,7 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
 }
 
 err_t stepper_dwell(double milliseconds) {
-    err_t err = machine_check_queue();
+    err_t err = rules_check(RULES_DO_ENTRY);
     if (err == ERR_OK) {
         moves_push_dwell((uint32_t)ceil(milliseconds * TICKS_PER_MS));
         hal_governor_request();
@@ -111,7 +104,7 @@ err_t stepper_dwell(double milliseconds) {
 }
 
 err_t stepper_spindle_switch(bool on) {
-    err_t err = machine_check_queue();
+    err_t err = rules_check(RULES_DO_ENTRY);
     if (err != ERR_OK) {
         return err;
     }

@@ -6,6 +6,7 @@
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
+#include "stepper/rules.h"
 #include "stepper/step_isr.h"
 
 static const char spindle_owner[] = "STEPPER spindle";
@@ -53,11 +54,12 @@ static void reset_motion(void) {
 }
 
 err_t stepper_init(const stepper_init_t *config) {
-    if (machine.initialized) {
-        return err_raise(ERR_STEPPER_ALREADY_INITIALIZED, NULL);
+    err_t err = rules_check(RULES_DO_INIT);
+    if (err != ERR_OK) {
+        return err;
     }
     if (config->estop_gpio != PINS_NONE) {
-        err_t err = pins_claim(config->estop_gpio, estop_owner);
+        err = pins_claim(config->estop_gpio, estop_owner);
         if (err != ERR_OK) {
             return err;
         }
@@ -73,7 +75,7 @@ err_t stepper_init(const stepper_init_t *config) {
 }
 
 err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_PINS);
     if (err != ERR_OK) {
         return err;
     }
@@ -92,7 +94,7 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
         machine_follow_motors();
     }
     if (armed) {
-        stepper_run(machine.idle);
+        machine_arm();
     }
     return err;
 }
@@ -102,7 +104,7 @@ double stepper_step_rate_limit(axis_id_t axis) {
 }
 
 err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_LIMITS);
     if (err == ERR_OK) {
         err = machine_check_axis(axis);
     }
@@ -119,7 +121,7 @@ err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
 }
 
 err_t stepper_spindle(uint8_t gpio, bool invert) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_PINS);
     if (err != ERR_OK) {
         return err;
     }
@@ -142,7 +144,7 @@ err_t stepper_spindle(uint8_t gpio, bool invert) {
 }
 
 err_t stepper_junction(double deviation_mm) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
         geometry_settings.deviation = (float)deviation_mm;
     }
@@ -150,7 +152,7 @@ err_t stepper_junction(double deviation_mm) {
 }
 
 err_t stepper_scurve(bool on) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
         geometry_settings.scurve = on;
     }
@@ -158,7 +160,7 @@ err_t stepper_scurve(bool on) {
 }
 
 err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_SETTING);
     if (err != ERR_OK) {
         return err;
     }
@@ -170,7 +172,7 @@ err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
 }
 
 err_t stepper_close(void) {
-    err_t err = machine_check_initialized();
+    err_t err = rules_check(RULES_DO_STOP);
     if (err != ERR_OK) {
         return err;
     }

@@ -1,5 +1,5 @@
-// Finds the configuration's rows. A number counts through all tables, which suits the compiler; code
-// names table and row, which suits the interpreter. Context: main loop.
+// Finds the configuration's rows. A number counts through all tables, which suits the compiler;
+// code names table and row, which suits the interpreter. Context: main loop.
 #include "rows.h"
 
 #include "emit.h"

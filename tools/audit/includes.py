@@ -56,6 +56,7 @@ ALSO_FACES = {
     "firmware/io/io_bus.h",
     "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",
+    "stepper/rules.h",
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
 }
