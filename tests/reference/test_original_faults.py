@@ -386,6 +386,31 @@ def test_2_19_ctrl_c_stops_the_motors(tmp_path: Path) -> None:
     assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
 
 
+@pytest.mark.parametrize(
+    "line", ['SAVE "b.bas"', "VAR SAVE x", "OPTION AUTORUN ON", 'OPEN "f" FOR OUTPUT AS #1']
+)
+def test_2_21_flash_writes_stop_the_steps(line: str, tmp_path: Path) -> None:
+    """Refused while an axis moves, done behind it; the motion is the same as without."""
+    move = "STEPPER GC G1 X20 F3000"
+    quiet = typed(tmp_path, *READY, "x = 1", move, "PAUSE 100", WAIT)
+    session = typed(
+        tmp_path,
+        "AUTOSAVE\rPRINT 1\r\x1a",
+        *READY,
+        "x = 1",
+        move,
+        "PAUSE 100",
+        f"{line}",
+        WAIT,
+        f"{line}",
+    )
+    assert len(session.errors()) == 1
+    assert "while motion is under way" in session.errors()[0]
+    assert error_of(session.last) == ""
+    since = [s.axis("X").step_ns - s.axis("X").step_ns[0] for s in (quiet, session)]
+    assert np.array_equal(since[0], since[1])
+
+
 def test_2_22_timing_jitter(tmp_path: Path) -> None:
     """At any constant rate each step of each axis is within half a tick of its time."""
     for rate_khz in (7.0, 30.0, 45.0):
@@ -406,6 +431,24 @@ def test_2_22_timing_jitter(tmp_path: Path) -> None:
             ideal_ns = 1e6 / (rate_khz * ratio)
             off = middle - middle[0] - ideal_ns * np.arange(len(middle))
             assert off.max() - off.min() <= 10_001, (rate_khz, name)
+
+
+def test_2_24_soft_limits_to_the_step(tmp_path: Path) -> None:
+    """Not half a step beyond; a refusal leaves queue, position and motion alone."""
+    session = typed(
+        tmp_path,
+        *READY,
+        "STEPPER LIMITS X,0,10",
+        "STEPPER GC G1 X5 F600",
+        *[f"STEPPER GC G1 X{x}" for x in ("10.01", "10.0126", "-0.01", "11")],
+        "STEPPER GC G2 I5",
+        "STEPPER GC G1 X10",
+        WAIT,
+        "PRINT PEEK(STEPPER X)",
+    )
+    assert session.errors() == ["X position exceeds soft limits"] * 5
+    assert session.number() == 10
+    assert session.axis("X").steps().max() == 800
 
 
 def test_2_25_float32_everywhere(tmp_path: Path) -> None:
