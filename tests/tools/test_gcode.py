@@ -84,7 +84,7 @@ def test_modal_state_and_offsets():
         (["G64 P-1"], "must not be below 0"),
         (["G4"], "G4 without P"),
         (["G92"], "G92 without an axis"),
-        (["M3 G0 X1"], "a line each"),
+        (["M3 M4"], "two spindle switches"),
         (["G1 F0"], "F must be"),
     ],
 )

@@ -169,8 +169,8 @@ def test_quotes_and_umlauts_in_comments_are_welcome():
 
 
 def test_unknown_words_are_left_to_the_firmware():
-    job = prepare("part.nc", ["G1 X5 F100", "G93 P0.1", "X9"])
-    assert [line.code for line in job.lines] == ["G1X5F100", "G93P0.1", "X9"]
+    job = prepare("part.nc", ["G1 X5 F100", "G95 P0.1", "X9"])
+    assert [line.code for line in job.lines] == ["G1X5F100", "G95P0.1", "X9"]
     assert job.unreadable.line_number == 2
 
 

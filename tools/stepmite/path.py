@@ -330,6 +330,8 @@ def build(
         if block.kind != "move":
             pauses.append((len(runs) - 1, block.dwell_s))
             runs.append([])
+            if block.kind == "home":
+                here, here_steps = np.array(block.target), target_steps(block.target, scale)
             continue
         steps = target_steps(block.target, scale)
         if steps == here_steps and (block.arc is None or _is_below_a_step(block.arc, scale)):

@@ -83,6 +83,8 @@ def prepare(name: str, text: Iterable[str], machine: Machine | None = None) -> J
         blocks = _read(job, reader, number, raw)
         rows.append((number, raw.strip(), code, max(1, len(blocks))))
         job.blocks += blocks
+        if reader.ended:
+            break
     seconds: dict[int, float] = {}
     for planned in plan(job.blocks, machine):
         number = planned.block.line_number
@@ -257,8 +259,10 @@ class Streamer:
     def _next_batch(self) -> list[Line]:
         """Take as many lines as there are free slots and as fit on a BASIC line, one at least."""
         lines = self._job.lines
-        if self._credit < lines[self._sent].slots:
-            self._wait_for_slots(lines[self._sent].slots)
+        # What a long line does not find room for the board keeps, and takes up by and by.
+        wanted = min(lines[self._sent].slots, max(1, (self._free_most - self._reserve) // 2))
+        if self._credit < wanted:
+            self._wait_for_slots(wanted)
         batch: list[Line] = []
         length = slots = 0
         for line in lines[self._sent :]:
