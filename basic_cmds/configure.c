@@ -1,9 +1,10 @@
-// STEPPER INIT, AXIS, LIMITS, SPINDLE, JUNCTION, SCURVE, JERK, ARC LEGACY. Context: main loop.
+// STEPPER INIT, AXIS, LIMITS, SPINDLE, COOLANT, JUNCTION, SCURVE, JERK, ARC LEGACY. Context: main loop.
 #include "basic_cmds/configure.h"
 
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
+#include "stepper/stepper_outputs.h"
 
 err_t configure_init(const basic_arg_t *args, size_t count) {
     (void)count;
@@ -57,7 +58,26 @@ err_t configure_limits(const basic_arg_t *args, size_t count) {
 
 err_t configure_spindle(const basic_arg_t *args, size_t count) {
     (void)count;
-    return stepper_spindle((uint8_t)args[SPINDLE_PIN].integer, args[SPINDLE_INVERT].integer != 0);
+    stepper_spindle_t config = {
+        .gpio = (uint8_t)args[SPINDLE_PIN].integer,
+        .dir_gpio = (uint8_t)args[SPINDLE_DIR].integer,
+        .invert = args[SPINDLE_INVERT].integer != 0,
+        .max_rpm = args[SPINDLE_MAX].number,
+        .min_rpm = args[SPINDLE_MIN].number,
+        .pwm_hz = args[SPINDLE_PWM].number,
+        .spinup_ms = (uint32_t)args[SPINDLE_SPINUP].integer,
+    };
+    return stepper_spindle(&config);
+}
+
+err_t configure_coolant(const basic_arg_t *args, size_t count) {
+    (void)count;
+    stepper_coolant_t config = {
+        .flood_gpio = (uint8_t)args[COOLANT_FLOOD].integer,
+        .mist_gpio = (uint8_t)args[COOLANT_MIST].integer,
+        .invert = args[COOLANT_INVERT].integer != 0,
+    };
+    return stepper_coolant(&config);
 }
 
 err_t configure_junction(const basic_arg_t *args, size_t count) {

@@ -8,6 +8,7 @@ err_t configure_init(const basic_arg_t *args, size_t count);
 err_t configure_axis(const basic_arg_t *args, size_t count);
 err_t configure_limits(const basic_arg_t *args, size_t count);
 err_t configure_spindle(const basic_arg_t *args, size_t count);
+err_t configure_coolant(const basic_arg_t *args, size_t count);
 err_t configure_junction(const basic_arg_t *args, size_t count);
 err_t configure_scurve(const basic_arg_t *args, size_t count);
 err_t configure_jerk(const basic_arg_t *args, size_t count);
@@ -28,6 +29,16 @@ enum {
     AXIS_ARGS
 };
 enum { LIMITS_AXIS, LIMITS_MIN, LIMITS_MAX, LIMITS_ARGS };
-enum { SPINDLE_PIN, SPINDLE_INVERT, SPINDLE_ARGS };
+enum {
+    SPINDLE_PIN,
+    SPINDLE_INVERT,
+    SPINDLE_MAX,
+    SPINDLE_MIN,
+    SPINDLE_PWM,
+    SPINDLE_SPINUP,
+    SPINDLE_DIR,
+    SPINDLE_ARGS
+};
+enum { COOLANT_FLOOD, COOLANT_MIST, COOLANT_INVERT, COOLANT_ARGS };
 
 #endif

@@ -191,8 +191,7 @@ err_t pin_values_pwm(const basic_arg_t *args, size_t count) {
 
 err_t pin_values_pwm_off(const basic_arg_t *args, size_t count) {
     (void)count;
-    io_pwm_off((unsigned)args[0].integer);
-    return ERR_OK;
+    return io_pwm_off((unsigned)args[0].integer);
 }
 
 err_t pin_values_sync(const basic_arg_t *args, size_t count) {

@@ -5,6 +5,7 @@
 
 #include "gcode/gcode.h"
 #include "stepper/stepper.h"
+#include "stepper/stepper_outputs.h"
 
 static const char *yes_no(bool yes) {
     return yes ? "YES" : "NO";
@@ -91,6 +92,32 @@ static void print_path_mode(void) {
     basic_printf(", A on arcs: %s\n", gcode_arc_legacy() ? "ignored" : "turns along");
 }
 
+static void print_outputs(void) {
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    const stepper_spindle_t *spindle = &outputs.spindle;
+    basic_printf("Spindle: %s%s, %s", pins_name(spindle->gpio), spindle->invert ? " inverted" : "",
+                 on_off(outputs.spindle_on));
+    if (spindle->gpio != PINS_NONE && spindle->max_rpm > 0.0) {
+        basic_printf(" %.0f rpm of %.0f to %.0f, PWM %g Hz", outputs.rpm, spindle->min_rpm,
+                     spindle->max_rpm, spindle->pwm_hz);
+    }
+    if (spindle->dir_gpio != PINS_NONE) {
+        basic_printf(", dir %s %s", pins_name(spindle->dir_gpio),
+                     outputs.turn == STEPPER_SPINDLE_CCW ? "CCW" : "CW");
+    }
+    if (spindle->spinup_ms > 0) {
+        basic_printf(", spin-up %u ms", (unsigned)spindle->spinup_ms);
+    }
+    basic_printf("\n");
+    const stepper_coolant_t *coolant = &outputs.coolant;
+    if (coolant->flood_gpio != PINS_NONE || coolant->mist_gpio != PINS_NONE) {
+        basic_printf("Coolant: flood %s %s, mist %s %s%s\n", pins_name(coolant->flood_gpio),
+                     on_off(outputs.flood), pins_name(coolant->mist_gpio), on_off(outputs.mist),
+                     coolant->invert ? ", inverted" : "");
+    }
+}
+
 err_t report_status(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
@@ -112,8 +139,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
-    basic_printf("Spindle: %s%s, %s\n", pins_name(status.spindle_gpio),
-                 status.spindle_invert ? " inverted" : "", on_off(status.spindle_on));
+    print_outputs();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         print_axis(axis);
     }

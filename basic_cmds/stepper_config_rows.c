@@ -3,6 +3,7 @@
 #include "basic_cmds/row_args.h"
 #include "basic_cmds/tables.h"
 #include "stepper/stepper.h"
+#include "stepper/stepper_outputs.h"
 
 static const basic_arg_spec_t init_args[INIT_ARGS] = {
     [INIT_TOLERANCE] = {"arc_tolerance", BASIC_ARG_NUMBER, DEFAULTS | ABOVE, .min = 0, .max = 10,
@@ -44,6 +45,28 @@ static const basic_arg_spec_t spindle_args[SPINDLE_ARGS] = {
     [SPINDLE_PIN] = {"pin", BASIC_ARG_PIN, OPTIONAL,
                      .help = "output switched by M3 and M5, 0: none"},
     [SPINDLE_INVERT] = SWITCH_ARG("invert", "1: low is on"),
+    [SPINDLE_MAX] = {"max_rpm", BASIC_ARG_NUMBER, DEFAULTS, .min = 0,
+                     .max = STEPPER_SPINDLE_RPM_MAX, .unit = "1/min",
+                     .help = "speed at 100 % PWM duty; 0: no PWM, the output is on or off"},
+    [SPINDLE_MIN] = {"min_rpm", BASIC_ARG_NUMBER, DEFAULTS, .min = 0,
+                     .max = STEPPER_SPINDLE_RPM_MAX, .unit = "1/min",
+                     .help = "lower speeds above 0 become this one"},
+    [SPINDLE_PWM] = {"pwm_hz", BASIC_ARG_NUMBER, DEFAULTS, .min = 1, .max = 1000000,
+                     .fallback = STEPPER_SPINDLE_PWM_HZ_DEFAULT, .unit = "Hz",
+                     .help = "frequency of the PWM; the pin's slice serves nothing else then"},
+    [SPINDLE_SPINUP] = {"spinup_ms", BASIC_ARG_INTEGER, DEFAULTS, .min = 0,
+                        .max = STEPPER_SPINDLE_SPINUP_MS_MAX, .unit = "ms",
+                        .help = "motion waits so long when the spindle starts or turns round"},
+    [SPINDLE_DIR] = {"dir_pin", BASIC_ARG_PIN, OPTIONAL,
+                     .help = "low for M3, high for M4; without it M4 is an error"},
+};
+
+static const basic_arg_spec_t coolant_args[COOLANT_ARGS] = {
+    [COOLANT_FLOOD] = {"flood_pin", BASIC_ARG_PIN, OPTIONAL,
+                       .help = "output switched on by M8 and off by M9, 0: none"},
+    [COOLANT_MIST] = {"mist_pin", BASIC_ARG_PIN, OPTIONAL,
+                      .help = "output switched on by M7 and off by M9, 0: none"},
+    [COOLANT_INVERT] = SWITCH_ARG("invert", "1: low is on"),
 };
 
 static const basic_arg_spec_t junction_args[] = {
@@ -84,6 +107,7 @@ static const basic_command_t commands[] = {
     {"STEPPER AXIS", ARGS(axis_args), configure_axis, "Configures an axis"},
     {"STEPPER LIMITS", ARGS(limits_args), configure_limits, "Sets the soft limits of an axis"},
     {"STEPPER SPINDLE", ARGS(spindle_args), configure_spindle, "Sets the spindle output"},
+    {"STEPPER COOLANT", ARGS(coolant_args), configure_coolant, "Sets the coolant outputs"},
     {"STEPPER JUNCTION", ARGS(junction_args), configure_junction, "Sets the junction deviation"},
     {"STEPPER SCURVE", ARGS(scurve_args), configure_scurve,
      "Chooses S-curves or trapezoids for what is queued from now on"},

@@ -9,6 +9,7 @@
 #include "gcode/gcode_lexer.h"
 #include "gcode/gcode_words.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_outputs.h"
 
 static struct {
     modal_t modal;
@@ -79,7 +80,8 @@ static err_t carry_out(const line_t *line) {
     case ACTION_OFFSET:
         return set_offsets(line);
     case ACTION_SPINDLE:
-        return stepper_spindle_switch(line->spindle_on);
+        return stepper_spindle_switch(line->spindle_on ? STEPPER_SPINDLE_CW : STEPPER_SPINDLE_OFF,
+                                      0.0);
     case ACTION_NONE:
     case ACTION_HOME:
         break;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "stepper/jog.h"
+#include "stepper/outputs.h"
 #include "stepper/path.h"
 #include "stepper/planner.h"
 #include "stepper/segment_writer.h"
@@ -28,6 +29,7 @@ static struct {
     volatile bool armed;
     volatile bool stopping;
     volatile bool holding; // feed hold: brake to a standstill and wait there
+    volatile bool paused;  // the front block holds
     volatile bool estop_event;
     volatile uint32_t drops;
     bool idle_off;
@@ -42,6 +44,7 @@ static struct {
 
 static void stand(void) {
     governor.begun = false;
+    governor.paused = false;
     governor.standing = true;
 }
 
@@ -85,10 +88,24 @@ static void begin_block(const block_t *block) {
     }
     governor.begun = true;
     planner_start();
-    if (block_is_move(block)) {
+    switch (block->kind) {
+    case BLOCK_LINE:
+    case BLOCK_ARC:
+    case BLOCK_BLEND:
         travel_begin(block);
-    } else if (block->kind == BLOCK_DWELL) {
+        break;
+    case BLOCK_DWELL:
         governor.dwell_left = block->dwell_ticks;
+        break;
+    case BLOCK_PINS:
+        outputs_begin(block);
+        segment_writer_wait(1, block->pins.set, block->pins.clear);
+        governor.dwell_left = block->pins.dwell_ticks;
+        break;
+    case BLOCK_PAUSE:
+        governor.paused = true;
+        governor.holding = true;
+        break;
     }
 }
 
@@ -163,11 +180,13 @@ static bool advance(uint32_t slice_ticks) {
         advance_move((float)slice_ticks);
         break;
     case BLOCK_DWELL:
+    case BLOCK_PINS:
         advance_dwell();
         break;
-    case BLOCK_PINS:
-        segment_writer_wait(1, front->pins.set, front->pins.clear);
-        finish_block();
+    case BLOCK_PAUSE:
+        if (!governor.holding) {
+            finish_block();
+        }
         break;
     }
     return true;
@@ -269,9 +288,7 @@ void governor_emergency_stop(void) {
     jog_drop();
     drop_blocks();
     governor_set_position(steps);
-    bool spindle_off_level = governor.pins.spindle_inverted;
-    hal_pins_set(spindle_off_level ? governor.pins.spindle : 0);
-    hal_pins_clear(spindle_off_level ? 0 : governor.pins.spindle);
+    outputs_off();
     if (!governor.pins.estop_keeps_enabled) {
         hal_pins_set(governor.pins.enable);
     }
@@ -299,6 +316,10 @@ void governor_hold(bool hold) {
 
 bool governor_holding(void) {
     return governor.holding;
+}
+
+bool governor_paused(void) {
+    return governor.paused && ring_used(&segments.ring) == 0;
 }
 
 bool governor_armed(void) {

@@ -10,8 +10,6 @@ typedef struct {
     uint32_t dir[AXIS_COUNT];
     uint32_t dir_inverted; // bit n: axis n has its direction pin low when it counts up
     uint32_t enable;       // active low
-    uint32_t spindle;
-    bool spindle_inverted;
     bool estop_keeps_enabled;
 } governor_pins_t;
 
@@ -55,6 +53,7 @@ void governor_whereabouts(float *speed, float *left);
 bool governor_armed(void);
 bool governor_stopping(void);
 bool governor_holding(void);
+bool governor_paused(void);       // at a block that holds, and the motors stand
 float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()

@@ -5,13 +5,14 @@
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/moves.h"
+#include "stepper/outputs.h"
 #include "stepper/planner.h"
 #include "stepper/rules.h"
 #include "stepper/step_isr.h"
 
 #define ENDING_US 5000u // the governor is at most half of it ahead
 
-machine_t machine = {.spindle_gpio = PINS_NONE, .config = {.estop_gpio = PINS_NONE}};
+machine_t machine = {.config = {.estop_gpio = PINS_NONE}};
 
 void machine_motor_steps(int32_t steps[AXIS_COUNT]) {
     hal_governor_lock();
@@ -23,6 +24,7 @@ void machine_follow_motors(void) {
     int32_t steps[AXIS_COUNT];
     machine_motor_steps(steps);
     moves_set_position(steps);
+    outputs_follow();
 }
 
 void machine_follow_stops(void) {

@@ -13,8 +13,6 @@ typedef struct {
     bool estop_untold; // a safety input has stopped the machine; stepper_next_event() tells it
     stepper_idle_t idle;
     stepper_init_t config;
-    uint8_t spindle_gpio;
-    bool spindle_invert;
     int feed_override, rapid_override; // percent
     uint32_t drops_seen;               // of governor_drops(), that the planner has followed
 } machine_t;

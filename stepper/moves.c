@@ -11,6 +11,8 @@
 #include "stepper/extremes.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
+#include "stepper/lines.h"
+#include "stepper/outputs.h"
 
 // A line, its blend and the next line, and one to spare.
 #define BLEND_RING_MIN 4u
@@ -47,13 +49,15 @@ static void push_block(void) {
 
 static void fill_move(block_t *block, const geometry_t *g, float corner2,
                       const int32_t target_steps[AXIS_COUNT]) {
+    block->line = lines_code();
+    block->level = outputs.level;
     memcpy(block->move.target, target_steps, sizeof block->move.target);
     block->move.length = g->length;
     block->move.axes_speed = g->axes_speed;
     block->move.feed = g->feed;
     block->move.acceleration = g->acceleration;
     block->move.jerk = g->jerk;
-    block->move.corner = planner_v2(corner2);
+    block->move.corner = planner_v2_code(corner2);
 }
 
 // ---- Blends -------------------------------------------------------------------------------------
@@ -166,10 +170,10 @@ static bool ends_where_it_starts(const int32_t target_steps[AXIS_COUNT]) {
     return memcmp(target_steps, moves.target_steps, sizeof moves.target_steps) == 0;
 }
 
-void moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
+bool moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]) {
     memcpy(moves.commanded, move->target, sizeof moves.commanded);
     if (ends_where_it_starts(target_steps)) {
-        return;
+        return false;
     }
     double delta[AXIS_COUNT];
     find_delta(delta, move);
@@ -184,13 +188,14 @@ void moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS
     }
     follow_move(&g, move, target_steps);
     moves.blends = move->corner == STEPPER_CORNER_BLEND;
+    return true;
 }
 
-void moves_push_arc(const arc_t *arc, const stepper_move_t *move,
+bool moves_push_arc(const arc_t *arc, const stepper_move_t *move,
                     const int32_t target_steps[AXIS_COUNT]) {
     memcpy(moves.commanded, move->target, sizeof moves.commanded);
     if (ends_where_it_starts(target_steps) && arc_is_below_a_step(arc)) {
-        return;
+        return false;
     }
     double delta[AXIS_COUNT];
     find_delta(delta, move);
@@ -203,16 +208,27 @@ void moves_push_arc(const arc_t *arc, const stepper_move_t *move,
     push_block();
     follow_move(&g, move, target_steps);
     moves.blends = false;
+    return true;
+}
+
+// Puts the block in the next slot, at which the machine stands, behind all others.
+static void push_standing(void) {
+    planner_free_slot(0)->line = lines_code();
+    moves.corner = false;
+    push_block();
 }
 
 void moves_push_dwell(uint32_t ticks) {
     *planner_free_slot(0) = (block_t){.kind = BLOCK_DWELL, .dwell_ticks = ticks};
-    moves.corner = false;
-    push_block();
+    push_standing();
 }
 
-void moves_push_pins(uint32_t set, uint32_t clear) {
-    *planner_free_slot(0) = (block_t){.kind = BLOCK_PINS, .pins = {.set = set, .clear = clear}};
-    moves.corner = false;
-    push_block();
+void moves_push_pins(const block_pins_t *pins) {
+    *planner_free_slot(0) = (block_t){.kind = BLOCK_PINS, .level = outputs.level, .pins = *pins};
+    push_standing();
+}
+
+void moves_push_pause(void) {
+    *planner_free_slot(0) = (block_t){.kind = BLOCK_PAUSE};
+    push_standing();
 }

@@ -15,12 +15,13 @@ void moves_target(double target[AXIS_COUNT]);
 uint32_t moves_free(void);
 
 // Puts a move, whose target has been checked, behind all others. A move shorter than half a step of
-// each axis is not queued: its way is part of the next one.
-void moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
+// each axis is not queued (false): its way is part of the next one.
+bool moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS_COUNT]);
 typedef struct arc arc_t; // stepper/arc.h
-void moves_push_arc(const arc_t *arc, const stepper_move_t *move,
+bool moves_push_arc(const arc_t *arc, const stepper_move_t *move,
                     const int32_t target_steps[AXIS_COUNT]);
 void moves_push_dwell(uint32_t ticks);
-void moves_push_pins(uint32_t set, uint32_t clear);
+void moves_push_pins(const block_pins_t *pins);
+void moves_push_pause(void);
 
 #endif

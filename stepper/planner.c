@@ -20,6 +20,7 @@
 #include <math.h>
 
 #include "stepper/axis.h"
+#include "stepper/lines.h"
 
 planner_ring_t blocks;
 
@@ -40,6 +41,7 @@ void planner_reset(uint32_t size) {
     ring_reset(&blocks.ring, size);
     clear_binding();
     blocks.front_started = false;
+    lines_restart();
 }
 
 void planner_set_scale(void) {
@@ -56,6 +58,37 @@ void planner_set_scale(void) {
 v2_t planner_v2(float speed2) {
     float units = speed2 * blocks.v2_per_unit;
     return units < (float)V2_MAX ? (v2_t)units : V2_MAX;
+}
+
+// Codes are upper bits of a float, five of the exponent and eleven behind the leading one. The bits
+// of floats above 0 compare like what they stand for, in less time.
+#define CODE_SHIFT 12
+#define CODE_BASE (127u << 11) // of 2^0
+
+static inline v2_code_t code_of(uint32_t float_bits) {
+    uint32_t code = float_bits >> CODE_SHIFT;
+    if (code <= CODE_BASE) {
+        return 0;
+    }
+    code -= CODE_BASE;
+    return (v2_code_t)(code < V2_CODE_MAX ? code : V2_CODE_MAX);
+}
+
+static inline uint32_t float_bits_of(v2_code_t code) {
+    return (code + CODE_BASE) << CODE_SHIFT;
+}
+
+static inline v2_t v2_of(v2_code_t code) {
+    uint32_t digits = (code & 0x7FFu) | 0x800u;
+    uint32_t exponent = code >> 11;
+    if (code == 0) {
+        return 0;
+    }
+    return exponent > 11 ? digits << (exponent - 11) : digits >> (11 - exponent);
+}
+
+v2_code_t planner_v2_code(float speed2) {
+    return code_of(span_float_bits(speed2 * blocks.v2_per_unit));
 }
 
 static inline span_t limits_of(const block_t *block) {
@@ -124,7 +157,7 @@ __attribute__((always_inline)) static inline span_t bind(uint32_t slot, span_t b
         return span_least(before, own);
     }
     binding_t *binding = &blocks.binding;
-    v2_t cap = block_is_move(block) ? block->move.entry_cap : 0;
+    v2_t cap = block_is_move(block) ? v2_of(block->move.entry_cap) : 0;
     uint64_t key = block->climb + cap;
     while (binding->count > 0 && binding->last_key >= key) {
         unbind_last(binding, &before);
@@ -163,10 +196,13 @@ static void find_entry_cap(const block_t *before, block_t *block,
     }
     float speed_before = top_speed(before, override);
     float speed = top_speed(block, override);
-    v2_t side = planner_v2(speed * speed);
-    v2_t cap = side < block->move.corner ? side : block->move.corner;
-    block->move.entry_cap = cap;
-    block->binds = cap < planner_v2(speed_before * speed_before);
+    uint32_t units = span_float_bits(speed * speed * blocks.v2_per_unit);
+    uint32_t units_before = span_float_bits(speed_before * speed_before * blocks.v2_per_unit);
+    v2_code_t side = code_of(units);
+    v2_code_t corner = block->move.corner;
+    block->move.entry_cap = side < corner ? side : corner;
+    // Compared exactly: moves of one speed in a row do not bind by what the code leaves out.
+    block->binds = units < units_before || float_bits_of(corner) < units_before;
 }
 
 // ---- New blocks ---------------------------------------------------------------------------------

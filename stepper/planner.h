@@ -6,17 +6,36 @@
 #include "stepper/span.h"
 #include "stepper/stepper.h"
 
-typedef enum { BLOCK_LINE, BLOCK_ARC, BLOCK_BLEND, BLOCK_DWELL, BLOCK_PINS } block_kind_t;
+typedef enum {
+    BLOCK_LINE,
+    BLOCK_ARC,
+    BLOCK_BLEND,
+    BLOCK_DWELL,
+    BLOCK_PINS,
+    BLOCK_PAUSE
+} block_kind_t;
 
 // Squares of speeds as the planner counts them: integers, scaled so that the fastest speed the
 // machine can have on any path lies just below V2_MAX. See planner_set_scale().
 typedef uint32_t v2_t;
 #define V2_MAX ((v2_t)1 << 31)
 
+// The same rounded down to 12 binary digits, to fit in two bytes. Codes compare like what they
+// stand for.
+typedef uint16_t v2_code_t;
+#define V2_CODE_MAX ((v2_code_t)(31u << 11)) // V2_MAX
+
 #define PLANNER_GROUP 16u // binding entries
 
 // Places along the path, in 2^-12 units and modulo 2^32: for differences.
 #define WAY_ONE 4096.0f
+
+// Outputs that are switched at a place of the queue.
+typedef struct {
+    uint32_t set, clear;  // masks
+    uint32_t dwell_ticks; // to wait behind it
+    uint8_t turn;         // of the spindle from now on, stepper_turn_t
+} block_pins_t;
 
 // Lengths and speeds along a move count all four axes, in units (mm and degrees) and units/s.
 typedef struct {
@@ -27,6 +46,8 @@ typedef struct {
     uint16_t span_acceleration;
     uint32_t way;   // where it begins along the path
     uint64_t climb; // v2_t that all moves before it can gain: the sum of 2 * acceleration * length
+    uint16_t line;  // lines_code()
+    uint16_t level; // of the spindle's PWM from its beginning on; moves and BLOCK_PINS
     union {
         struct {
             int32_t target[AXIS_COUNT]; // steps, where the move ends as it was programmed
@@ -35,8 +56,9 @@ typedef struct {
             float feed;         // units/s, as programmed; 0: rapid, as fast as the axes allow
             float acceleration; // units/s^2
             float jerk;         // units/s^3; 0: trapezoid
-            v2_t corner;        // speed that the corner before it allows
-            v2_t entry_cap; // the same, within what is allowed on both sides of the corner; main
+            v2_code_t corner;   // speed that the corner before it allows
+            v2_code_t
+                entry_cap; // the same, within what is allowed on both sides of the corner; main
             union {
                 struct {
                     // What the blends before and behind it cut off, in 2^-32 of the programmed
@@ -53,9 +75,7 @@ typedef struct {
             };
         } move;
         uint32_t dwell_ticks;
-        struct {
-            uint32_t set, clear;
-        } pins;
+        block_pins_t pins;
     };
 } block_t;
 
@@ -115,6 +135,8 @@ static inline bool block_is_move(const block_t *block) {
 
 // The square of a speed as the planner counts it. Any context.
 v2_t planner_v2(float speed2);
+
+v2_code_t planner_v2_code(float speed2);
 
 // The n-th free slot, to be filled in; and the newest block that is queued.
 block_t *planner_free_slot(uint32_t n);

@@ -22,8 +22,9 @@
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis
 // round.
 #define NO_DISTANCE ((int64_t)1 << 20)
-#define TICK_ONE ((int32_t)1 << 16) // times in 2^-16 ticks
-#define ROOM 4                      // segments: one call writes up to that many
+#define TICK_ONE ((int32_t)1 << 16)    // times in 2^-16 ticks
+#define AXES ((1u << AXIS_COUNT) - 1u) // of the flags of a segment
+#define ROOM 4                         // segments: one call writes up to that many
 // What is rare stays out of the quick way, which has too few registers on a Cortex-M0+ as it is.
 #define SEPARATE __attribute__((noinline))
 
@@ -45,7 +46,7 @@ typedef struct {
 
 static struct {
     writer_axis_t axes[AXIS_COUNT];
-    uint32_t negative; // bit n: axis n counts down
+    uint32_t flags; // of segments: bit n: axis n counts down; upper half: level of the PWM
     uint32_t dir_inverted;
     int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
     uint32_t end_ticks;
@@ -57,11 +58,11 @@ static struct {
 // word.
 static void follow_dir_pins(void) {
     uint32_t pins = hal_pins_read();
-    writer.negative = 0;
+    writer.flags &= ~AXES;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         uint32_t dir = writer.axes[axis].dir;
         uint32_t low = (pins & dir) != 0 ? 0 : 1u << axis;
-        writer.negative |= dir != 0 ? low ^ (writer.dir_inverted & 1u << axis) : 0;
+        writer.flags |= dir != 0 ? low ^ (writer.dir_inverted & 1u << axis) : 0;
     }
 }
 
@@ -80,13 +81,21 @@ void segment_writer_reset(const int32_t steps[AXIS_COUNT]) {
 
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted) {
     writer.dir_inverted = inverted;
-    writer.negative = 0;
+    writer.flags &= ~AXES;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         writer.axes[axis].dir = dir[axis];
         bool low = (inverted >> axis) & 1;
         hal_pins_set(low ? 0 : dir[axis]);
         hal_pins_clear(low ? dir[axis] : 0);
     }
+}
+
+void segment_writer_set_level(uint16_t level) {
+    writer.flags = (writer.flags & UINT16_MAX) | (uint32_t)level << SEGMENT_LEVEL_SHIFT;
+}
+
+uint16_t segment_writer_level(void) {
+    return (uint16_t)(writer.flags >> SEGMENT_LEVEL_SHIFT);
 }
 
 void segment_writer_end_steps(int32_t steps[AXIS_COUNT]) {
@@ -142,7 +151,7 @@ static inline segment_t *open_slot(void) {
 }
 
 static inline bool counts_down(axis_id_t axis) {
-    return (writer.negative >> axis) & 1;
+    return (writer.flags >> axis) & 1;
 }
 
 // The fraction of `place` + 1/2 in the direction of the axis.
@@ -191,14 +200,14 @@ static uint32_t write_segment(const int64_t target[AXIS_COUNT], const pace_t *pa
     segment->ticks = pace->ticks;
     segment->pins_set = 0;
     segment->pins_clear = 0;
-    uint32_t negative = writer.negative;
-    segment->flags = negative;
+    uint32_t flags = writer.flags;
+    segment->flags = flags;
     uint32_t turning = 0;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         writer_axis_t *from = &writer.axes[axis];
         segment_axis_t *out = &segment->axes[axis];
         int64_t place = from->place;
-        bool down = (negative >> axis) & 1;
+        bool down = (flags >> axis) & 1;
         out->start_steps = (int32_t)((place + HALF_STEP) >> 32);
         out->phase = phase_at(place, down);
         int64_t way = down ? place - target[axis] : target[axis] - place;
@@ -331,7 +340,7 @@ static void switch_directions(uint32_t turning) {
     segment_t *segment = open_slot();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if ((turning >> axis) & 1) {
-            bool high = (((writer.negative ^ writer.dir_inverted) >> axis) & 1) == 0;
+            bool high = (((writer.flags ^ writer.dir_inverted) >> axis) & 1) == 0;
             uint32_t dir = writer.axes[axis].dir;
             segment->pins_set |= high ? dir : 0;
             segment->pins_clear |= high ? 0 : dir;
@@ -349,7 +358,7 @@ SEPARATE static void turn(way_t *way, uint32_t turning) {
     } else {
         shorten(0, turning);
     }
-    writer.negative ^= turning;
+    writer.flags ^= turning;
     go(way);
     switch_directions(turning);
     uint32_t stepping = about_to_step(turning);

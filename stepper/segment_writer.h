@@ -12,6 +12,10 @@ void segment_writer_reset(const int32_t steps[AXIS_COUNT]);
 // direction pin of axis n is low when it counts up.
 void segment_writer_set_dir_pins(const uint32_t dir[AXIS_COUNT], uint32_t inverted);
 
+// The PWM has this level in segments written from now on; and what it is.
+void segment_writer_set_level(uint16_t level);
+uint16_t segment_writer_level(void);
+
 // Goes to `target` (2^-32 steps) within `ticks` (less than 2^14). The segment ends at the last
 // whole tick in that time; what is left of time and way is the next call's, all of it if it is less
 // than a tick. `change`: how the speed along the path changes on the way, (end - start) / (end +

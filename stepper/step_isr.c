@@ -26,6 +26,7 @@ static struct {
     uint32_t raised;                       // step pins that are high
     uint32_t trip_mask;                    // safety inputs
     uint32_t trip_idle;                    // their levels while all is well
+    hal_pwm_place_t pwm;                   // of the spindle
     uint32_t step_pins[STEP_COMBINATIONS]; // bit 3: X ... bit 0: A, as the carries are gathered
     volatile uint32_t dry_count;
     volatile bool tripped;
@@ -58,6 +59,7 @@ static uint32_t HAL_RAM_FUNC(next_segment)(void) {
     segment_t *segment = &segments.slots[segments.ring.take_slot];
     hal_pins_set(segment->pins_set);
     hal_pins_clear(segment->pins_clear);
+    hal_pwm_level(isr.pwm, (uint16_t)(segment->flags >> SEGMENT_LEVEL_SHIFT));
     isr.current = segment;
     return segment->ticks;
 }
@@ -118,6 +120,10 @@ void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]) {
         }
         isr.step_pins[steps] = pins;
     }
+}
+
+void step_isr_set_pwm(hal_pwm_place_t place) {
+    isr.pwm = place;
 }
 
 // Motor position at `left` ticks before the end of `segment`: phase and rate at its start follow

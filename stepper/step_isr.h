@@ -12,6 +12,9 @@ void step_isr_setup(uint32_t trip_mask, uint32_t trip_levels);
 // The step pin of each axis as a mask, 0 for none. Context: main, while nothing moves.
 void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]);
 
+// Where the level of each segment goes. Context: main, while nothing moves.
+void step_isr_set_pwm(hal_pwm_place_t place);
+
 // No further step from now on: stops the tick, lowers the step pins, empties the ring.
 // Contexts: main with the governor locked, governor.
 void step_isr_abort(void);

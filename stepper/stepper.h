@@ -55,10 +55,6 @@ double stepper_step_rate_limit(axis_id_t axis);
 // Soft limits of X, Y or Z. Errors: axis not configured, min >= max.
 err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm);
 
-// The output that spindle on and off switch; PINS_NONE takes it away. Refused while anything is
-// queued.
-err_t stepper_spindle(uint8_t gpio, bool invert);
-
 // Junction deviation in mm (>= 0, 0 stops at every corner). Applies to moves queued from now on.
 err_t stepper_junction(double deviation_mm);
 
@@ -127,6 +123,10 @@ typedef struct {
     bool rapid;  // as fast as the axes allow
     stepper_corner_t corner;
     double blend_mm; // > 0, with STEPPER_CORNER_BLEND
+    // From the beginning of this move on the spindle has this speed, without a stop. No effect while
+    // it is off or has no PWM. Otherwise the speed stays as it is.
+    bool sets_spindle;
+    double spindle_rpm;
 } stepper_move_t;
 
 // A straight line. Further errors: position unknown, an axis that should move is not configured,
@@ -159,9 +159,6 @@ err_t stepper_arc(const stepper_arc_t *arc);
 #define STEPPER_DWELL_MAX_MS 86400000.0
 err_t stepper_dwell(double milliseconds);
 
-// Switches the spindle at this place of the queue. Further error: no spindle pin.
-err_t stepper_spindle_switch(bool on);
-
 // Where the last queued move ends; where the machine stands if none is queued.
 void stepper_target(double target[AXIS_COUNT]);
 
@@ -180,7 +177,7 @@ err_t stepper_jog_stop(void);
 // ---- Reports ------------------------------------------------------------------------------------
 
 typedef struct {
-    bool initialized, armed, moving, stopping, holding, jogging, position_known, spindle_on;
+    bool initialized, armed, moving, stopping, holding, jogging, position_known;
     stepper_idle_t idle;
     uint32_t blocks, blocks_free;
     uint32_t executed; // queue entries carried out since INIT
@@ -190,8 +187,8 @@ typedef struct {
     double junction_deviation_mm, arc_tolerance_mm;
     bool scurve;
     double jerk, axis_jerk[AXIS_COUNT]; // units/s^3; 0: the axis has no limit of its own
-    uint8_t estop_gpio, spindle_gpio;
-    bool estop_keeps_enabled, spindle_invert;
+    uint8_t estop_gpio;
+    bool estop_keeps_enabled;
 } stepper_status_t;
 
 void stepper_status(stepper_status_t *status);

@@ -5,6 +5,7 @@
 #include "stepper/axis.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
+#include "stepper/outputs.h"
 #include "stepper/rules.h"
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
@@ -43,6 +44,20 @@ static err_t check_target(const stepper_move_t *move, const double from[AXIS_COU
     return err;
 }
 
+// The speed that the move sets is that of its block and of those behind it. A move too short to be
+// queued leaves a block of its own for it.
+static void set_spindle(const stepper_move_t *move) {
+    if (move->sets_spindle && outputs.turn != STEPPER_SPINDLE_OFF) {
+        outputs.level = outputs_level(move->spindle_rpm);
+    }
+}
+
+static void push_level(uint16_t before) {
+    if (outputs.level != before) {
+        moves_push_pins(&(block_pins_t){.turn = outputs.turn});
+    }
+}
+
 err_t stepper_move(const stepper_move_t *move) {
     double from[AXIS_COUNT];
     int32_t steps[AXIS_COUNT];
@@ -52,7 +67,11 @@ err_t stepper_move(const stepper_move_t *move) {
         err = check_target(move, from, steps);
     }
     if (err == ERR_OK) {
-        moves_push_line(move, steps);
+        uint16_t level = outputs.level;
+        set_spindle(move);
+        if (!moves_push_line(move, steps)) {
+            push_level(level);
+        }
         hal_governor_request();
     }
     return err;
@@ -88,7 +107,11 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
         err = check_arc(&arc);
     }
     if (err == ERR_OK) {
-        moves_push_arc(&arc, &wanted->move, steps);
+        uint16_t level = outputs.level;
+        set_spindle(&wanted->move);
+        if (!moves_push_arc(&arc, &wanted->move, steps)) {
+            push_level(level);
+        }
         hal_governor_request();
     }
     return err;
@@ -101,21 +124,6 @@ err_t stepper_dwell(double milliseconds) {
         hal_governor_request();
     }
     return err;
-}
-
-err_t stepper_spindle_switch(bool on) {
-    err_t err = rules_check(RULES_DO_ENTRY);
-    if (err != ERR_OK) {
-        return err;
-    }
-    if (machine.spindle_gpio == PINS_NONE) {
-        return err_raise(ERR_NO_SPINDLE_PIN, NULL);
-    }
-    uint32_t mask = pins_mask(machine.spindle_gpio);
-    bool high = on != machine.spindle_invert;
-    moves_push_pins(high ? mask : 0, high ? 0 : mask);
-    hal_governor_request();
-    return ERR_OK;
 }
 
 void stepper_target(double target[AXIS_COUNT]) {

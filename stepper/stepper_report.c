@@ -9,8 +9,6 @@
 
 void stepper_status(stepper_status_t *status) {
     machine_follow_stops();
-    uint32_t spindle = pins_mask(machine.spindle_gpio);
-    bool spindle_high = spindle != 0 && (hal_pins_read() & spindle) != 0;
     *status = (stepper_status_t){
         .initialized = machine.initialized,
         .armed = governor_armed(),
@@ -19,7 +17,6 @@ void stepper_status(stepper_status_t *status) {
         .holding = governor_holding(),
         .jogging = jog_active(),
         .position_known = machine.position_known,
-        .spindle_on = spindle != 0 && spindle_high != machine.spindle_invert,
         .idle = machine.idle,
         .blocks = machine.config.blocks,
         .blocks_free = stepper_blocks_free(),
@@ -30,9 +27,7 @@ void stepper_status(stepper_status_t *status) {
         .junction_deviation_mm = (double)geometry_settings.deviation,
         .arc_tolerance_mm = machine.config.arc_tolerance_mm,
         .estop_gpio = machine.config.estop_gpio,
-        .spindle_gpio = machine.spindle_gpio,
         .estop_keeps_enabled = machine.config.estop_keeps_enabled,
-        .spindle_invert = machine.spindle_invert,
         .scurve = geometry_settings.scurve,
         .jerk = (double)geometry_settings.jerk,
     };

@@ -1,22 +1,21 @@
 // Configuration: INIT, axes, limits, spindle, and giving it all back. Context: main loop.
+#include "hal/hal_io.h"
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/home_config.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
+#include "stepper/outputs.h"
 #include "stepper/planner.h"
 #include "stepper/rules.h"
 #include "stepper/step_isr.h"
 
-static const char spindle_owner[] = "STEPPER spindle";
 static const char estop_owner[] = "STEPPER E-STOP";
 
 static void pass_pins_on(void) {
     governor_pins_t pins = {
         .enable = axis_enable_mask(),
-        .spindle = pins_mask(machine.spindle_gpio),
-        .spindle_inverted = machine.spindle_invert,
         .estop_keeps_enabled = machine.config.estop_keeps_enabled,
     };
     uint32_t steps[AXIS_COUNT];
@@ -38,6 +37,7 @@ static void reset_motion(void) {
     hal_tick_stop();
     hal_governor_lock();
     step_isr_setup(pins_mask(machine.config.estop_gpio), 0);
+    step_isr_set_pwm(hal_pwm_place(HAL_PWM_SLICES));
     governor_reset(zero);
     planner_reset(machine.config.blocks);
     hal_governor_unlock();
@@ -120,29 +120,6 @@ err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
     return ERR_OK;
 }
 
-err_t stepper_spindle(uint8_t gpio, bool invert) {
-    err_t err = rules_check(RULES_DO_PINS);
-    if (err != ERR_OK) {
-        return err;
-    }
-    if (gpio != machine.spindle_gpio) {
-        if (gpio != PINS_NONE && (err = pins_claim(gpio, spindle_owner)) != ERR_OK) {
-            return err;
-        }
-        if (machine.spindle_gpio != PINS_NONE) {
-            hal_pin_release(machine.spindle_gpio);
-            pins_disclaim(machine.spindle_gpio);
-        }
-    }
-    machine.spindle_gpio = gpio;
-    machine.spindle_invert = invert;
-    if (gpio != PINS_NONE) {
-        hal_pin_output(gpio, invert);
-    }
-    pass_pins_on();
-    return ERR_OK;
-}
-
 err_t stepper_junction(double deviation_mm) {
     err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
@@ -183,7 +160,7 @@ err_t stepper_close(void) {
     hal_governor_lock();
     governor_emergency_stop(); // spindle off, drivers off, disarmed
     hal_governor_unlock();
-    stepper_spindle(PINS_NONE, false);
+    outputs_take_away();
     axis_release_all();
     if (machine.config.estop_gpio != PINS_NONE) {
         hal_pin_release(machine.config.estop_gpio);

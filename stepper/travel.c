@@ -81,6 +81,7 @@ void travel_stand(void) {
 
 void travel_begin(const block_t *block) {
     travel.block = block;
+    segment_writer_set_level(block->level);
     travel.progress = 0;
     travel.per_length = PROGRESS_ONE / block->move.length;
     float top_speed = planner_top_speed(block);
@@ -93,9 +94,16 @@ void travel_begin(const block_t *block) {
     }
 }
 
-static bool goes_straight_on(void) {
+// What a way up to the end of the block has to last, in ticks, to get a segment of its own.
+static float least_to_end(void) {
     const block_t *second = planner_second();
-    return second != NULL && block_is_move(second) && second->move.corner == V2_MAX;
+    if (second == NULL || !block_is_move(second)) {
+        return CORNER_TICKS_MIN;
+    }
+    if (second->level != travel.block->level) {
+        return 0.0f; // the level is the segment's
+    }
+    return second->move.corner == V2_CODE_MAX ? SEGMENT_TICKS_MIN : CORNER_TICKS_MIN;
 }
 
 // The move ends within the piece of `dt`, in which the speed would change to `v1`. Returns the
@@ -115,8 +123,7 @@ static float pass_end(float left, float v1, float dt) {
     float ticks = time * (float)HAL_TICK_HZ;
     bool at_rest = exit_speed2 <= 0.0f;
     go_on(ticks, at_rest ? 0.0f : end_speed);
-    float least = at_rest || goes_straight_on() ? SEGMENT_TICKS_MIN : CORNER_TICKS_MIN;
-    if (at_rest || travel.pending_ticks >= least) {
+    if (at_rest || travel.pending_ticks >= least_to_end()) {
         int64_t target[AXIS_COUNT];
         path_end(target);
         write_way(target, at_rest);

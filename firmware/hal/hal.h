@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 #include "base/base.h"
-#include "hal_port.h" // inline: hal_pins_set(), hal_pins_clear(), hal_pins_read(), see below
+#include "hal_port.h" // inline: hal_pins_set() and others, see below
 #include "hal/pins.h"
 
 #define HAL_TICK_HZ 100000u
@@ -109,6 +109,10 @@ void hal_governor_unlock(void);
 //   void     hal_pins_set(uint32_t mask);      drive these outputs high
 //   void     hal_pins_clear(uint32_t mask);    drive these outputs low
 //   uint32_t hal_pins_read(void);              levels of all pins as they are now
+// A place takes the level of both outputs of a PWM slice (hal_io.h); at the end of a period it
+// counts. HAL_PWM_SLICES for `slice`: a place without effect.
+//   hal_pwm_place_t hal_pwm_place(unsigned slice);
+//   void     hal_pwm_level(hal_pwm_place_t place, uint16_t level);
 //   HAL_RAM_FUNC(name)                         places a function in RAM
 
 typedef enum { HAL_PULL_NONE, HAL_PULL_UP, HAL_PULL_DOWN } hal_pull_t;

@@ -98,8 +98,8 @@ err_t io_servo(unsigned slice, const bool given[2], const double percent[2]);
 // Starts slices of the mask together, each at `percent` of its period. Error: one is not set up.
 err_t io_pwm_sync(uint32_t slices, const double percent[HAL_PWM_SLICES]);
 
-// Outputs low; the pins stay the slice's.
-void io_pwm_off(unsigned slice);
+// Outputs low; the pins stay the slice's. Error: the slice is not the program's.
+err_t io_pwm_off(unsigned slice);
 
 // ---- Changes ------------------------------------------------------------------------------------
 

@@ -1,20 +1,17 @@
 // PWM and servos: a slice of the board makes one frequency and two outputs. Context: main loop.
 #include "io_slices.h"
 
+#include "hal/slices.h"
 #include "io.h"
 #include "io_pins.h"
 
-#define DIVIDER_MAX 4095u // 255 15/16
-#define COUNTS_MAX                                                                                 \
-    65535u // of a period; one less than the counter could, so that a level can be all of it
-#define COUNTS_MIN 4u // coarser than quarters is no PWM
-
-// A divider up to a 20th above the least possible is taken if it meets the frequency better.
-#define DIVIDER_PLAY 20u
+#define COUNTS_MIN 4u // of a period of a slice without settings
 
 #define SERVO_HZ 50.0
 #define SERVO_ZERO_MS 1.0 // the pulse at 0 %, and how much longer it is at 100 %
 #define SERVO_SPAN_MS 1.0
+
+static const char owner[] = "PWM";
 
 static struct {
     hal_pwm_t pwm;
@@ -70,6 +67,9 @@ err_t io_set_pwm(unsigned gpio, unsigned output) {
     if (err == ERR_OK) {
         err = check_output(gpio, output);
     }
+    if (err == ERR_OK) {
+        err = slices_claim(HAL_PWM_SLICE(gpio), owner);
+    }
     if (err == ERR_OK && io_pins_use(gpio) != IO_PINS_PWM) {
         io_pins_take(gpio, IO_PINS_PWM);
         slices[HAL_PWM_SLICE(gpio)].gpio[HAL_PWM_CHANNEL(gpio)] = (uint8_t)(gpio + 1);
@@ -82,7 +82,7 @@ err_t io_set_pwm(unsigned gpio, unsigned output) {
     return err;
 }
 
-void io_pwm_off(unsigned slice) {
+static void stop(unsigned slice) {
     slices[slice].set_up = slices[slice].running = false;
     slices[slice].pwm = (hal_pwm_t){.divider_16ths = 16, .top = COUNTS_MIN - 1};
     connect(slice, false);
@@ -90,61 +90,27 @@ void io_pwm_off(unsigned slice) {
     hal_pwm_set(slice, &slices[slice].pwm);
 }
 
+err_t io_pwm_off(unsigned slice) {
+    const char *other = slices_owner(slice);
+    if (other != NULL && other != owner) {
+        return slices_claim(slice, owner); // says who has it
+    }
+    stop(slice);
+    return ERR_OK;
+}
+
 void io_slices_remove(unsigned gpio) {
     unsigned slice = HAL_PWM_SLICE(gpio);
     unsigned channel = HAL_PWM_CHANNEL(gpio);
     slices[slice].gpio[channel] = 0;
     if (slices[slice].gpio[1 - channel] == 0) {
-        io_pwm_off(slice);
+        stop(slice);
+        slices_disclaim(slice);
     } else {
         slices[slice].pwm.level[channel] = 0;
         slices[slice].pwm.inverted[channel] = false;
         hal_pwm_set(slice, &slices[slice].pwm);
     }
-}
-
-// ---- Frequency ----------------------------------------------------------------------------------
-
-double io_slices_lowest_hz(uint32_t clock_hz) {
-    return (double)clock_hz * 16.0 / ((double)DIVIDER_MAX * COUNTS_MAX);
-}
-
-double io_slices_highest_hz(uint32_t clock_hz) {
-    return (double)clock_hz / COUNTS_MIN;
-}
-
-// How many counts of this divider come nearest to the period, and how far that is from it.
-static double error_of(double cycles_16ths, uint32_t divider, uint32_t *counts) {
-    *counts = (uint32_t)(cycles_16ths / divider + 0.5);
-    double error = cycles_16ths - (double)divider * *counts;
-    return error < 0.0 ? -error : error;
-}
-
-double io_slices_divide(uint32_t clock_hz, double frequency_hz, bool phase_correct,
-                        hal_pwm_t *pwm) {
-    double cycles_16ths = (double)clock_hz * 16.0 / frequency_hz / (phase_correct ? 2.0 : 1.0);
-    if (!(cycles_16ths >= 16.0 * COUNTS_MIN && cycles_16ths <= (double)DIVIDER_MAX * COUNTS_MAX)) {
-        return 0.0;
-    }
-    uint32_t least = (uint32_t)(cycles_16ths / COUNTS_MAX);
-    least += (double)least * COUNTS_MAX < cycles_16ths; // up: the counts have to fit
-    least = least < 16 ? 16 : least;
-    uint32_t best = least, best_counts;
-    double best_error = error_of(cycles_16ths, least, &best_counts);
-    for (uint32_t divider = least + 1;
-         divider <= DIVIDER_MAX && divider <= least + least / DIVIDER_PLAY; divider++) {
-        uint32_t counts;
-        double error = error_of(cycles_16ths, divider, &counts);
-        if (error < best_error && counts >= COUNTS_MIN) {
-            best = divider;
-            best_counts = counts;
-            best_error = error;
-        }
-    }
-    pwm->divider_16ths = (uint16_t)best;
-    pwm->top = (uint16_t)(best_counts - 1);
-    pwm->phase_correct = phase_correct;
-    return (double)clock_hz * 16.0 / ((double)best * best_counts) / (phase_correct ? 2.0 : 1.0);
 }
 
 // ---- Settings -----------------------------------------------------------------------------------
@@ -190,12 +156,12 @@ err_t io_pwm(unsigned slice, const io_pwm_t *settings) {
         return err;
     }
     hal_pwm_t pwm = slices[slice].pwm;
-    if (io_slices_divide(hal_clock_hz(), settings->frequency_hz, settings->phase_correct, &pwm) ==
+    if (slices_divide(hal_clock_hz(), settings->frequency_hz, settings->phase_correct, &pwm) ==
         0.0) {
         double share = settings->phase_correct ? 0.5 : 1.0;
         return err_raise(ERR_PWM_FREQUENCY, "%.1f to %.0f Hz",
-                         io_slices_lowest_hz(hal_clock_hz()) * share,
-                         io_slices_highest_hz(hal_clock_hz()) * share);
+                         slices_lowest_hz(hal_clock_hz()) * share,
+                         slices_highest_hz(hal_clock_hz()) * share);
     }
     for (unsigned channel = 0; channel < 2; channel++) {
         double before = percent_of(&slices[slice].pwm, channel);

@@ -12,6 +12,7 @@
 #include "fuzz_random.h"
 #include "fuzz_session.h"
 #include "gcode/gcode.h"
+#include "stepper/stepper_outputs.h"
 
 #define INPUTS 300
 #define SETTLE_S 20.0 // virtual time for motion to end by itself
@@ -74,7 +75,12 @@ static void set_up(void) {
     model.modal.spindle = fuzz_random_percent(70);
     model.modal.fine = fuzz_random_percent(30);
     if (model.modal.spindle) {
-        check_ok(stepper_spindle(20, fuzz_random_percent(30)), "spindle");
+        stepper_spindle_t spindle = {
+            .gpio = 20,
+            .dir_gpio = PINS_NONE,
+            .invert = fuzz_random_percent(30),
+        };
+        check_ok(stepper_spindle(&spindle), "spindle");
     }
     set_up_jerk();
     if (fuzz_random_percent(30)) {

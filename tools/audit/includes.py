@@ -53,12 +53,14 @@ ALSO_FACES = {
     "firmware/hal/hal_i2c.h",
     "firmware/hal/hal_serial.h",
     "firmware/hal/hal_spi.h",
+    "firmware/hal/slices.h",
     "firmware/io/io_bus.h",
     "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",
     "stepper/rules.h",
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
+    "stepper/stepper_outputs.h",
 }
 
 # Includes that lead out of the table: the inline half of hal.h, and what the build generates.

@@ -164,6 +164,20 @@ void hal_pwm_set(unsigned slice, const hal_pwm_t *pwm) {
     after_change();
 }
 
+hal_pwm_place_t hal_pwm_place(unsigned slice) {
+    return slice;
+}
+
+void hal_pwm_level(hal_pwm_place_t slice, uint16_t level) {
+    if (slice >= HAL_PWM_SLICES ||
+        (slices[slice].pwm.level[0] == level && slices[slice].pwm.level[1] == level)) {
+        return;
+    }
+    hal_pwm_t pwm = slices[slice].pwm;
+    pwm.level[0] = pwm.level[1] = level;
+    hal_pwm_set(slice, &pwm);
+}
+
 void hal_pwm_start(uint32_t mask, const uint16_t counts[HAL_PWM_SLICES]) {
     before_change();
     for (uint32_t rest = mask; rest != 0; rest &= rest - 1) {

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "hardware/structs/pwm.h"
 #include "hardware/structs/scb.h"
 #include "hardware/structs/sio.h"
 #include "hardware/structs/systick.h"
@@ -28,6 +29,21 @@ static __force_inline void hal_pins_clear(uint32_t mask) {
 
 static __force_inline uint32_t hal_pins_read(void) {
     return sio_hw->gpio_in;
+}
+
+// ---- PWM: the level of a slice ------------------------------------------------------------------
+
+// 16 bits that are written to a peripheral reach both halves of its register, here A and B (RP2040
+// datasheet 2.1.4, RP2350 datasheet 2.1.5: narrow I/O register writes).
+typedef volatile uint16_t *hal_pwm_place_t;
+extern volatile uint16_t rp2_pwm_nowhere;
+
+static __force_inline hal_pwm_place_t hal_pwm_place(unsigned slice) {
+    return slice < 8 ? (hal_pwm_place_t)&pwm_hw->slice[slice].cc : &rp2_pwm_nowhere;
+}
+
+static __force_inline void hal_pwm_level(hal_pwm_place_t place, uint16_t level) {
+    *place = level;
 }
 
 // ---- Interrupt lines of the NVIC ----------------------------------------------------------------

@@ -5,6 +5,8 @@
 #include "hardware/clocks.h"
 #include "hardware/pwm.h"
 
+volatile uint16_t rp2_pwm_nowhere;
+
 uint32_t hal_clock_hz(void) {
     return SYS_CLK_HZ;
 }

@@ -3,9 +3,9 @@
 #include <unity.h>
 
 #include "fixture.h"
+#include "hal/slices.h"
 #include "host_clock.h"
 #include "io/io.h"
-#include "io/io_slices.h"
 
 #define PICO_HZ 125000000u
 #define PICO2_HZ 150000000u
@@ -18,7 +18,7 @@ void tearDown(void) {}
 
 static void check_division(uint32_t clock_hz, double frequency_hz, bool phase_correct) {
     hal_pwm_t pwm = {0};
-    double made_hz = io_slices_divide(clock_hz, frequency_hz, phase_correct, &pwm);
+    double made_hz = slices_divide(clock_hz, frequency_hz, phase_correct, &pwm);
     TEST_ASSERT_TRUE(made_hz > 0.0);
     double counts = pwm.top + 1.0;
     double half = phase_correct ? 2.0 : 1.0;
@@ -44,21 +44,21 @@ static void test_round_frequencies_are_exact(void) {
     static const double round_hz[] = {50, 100, 500, 1000, 2000, 5000, 20000, 25000, 100000, 1e6};
     for (size_t i = 0; i < COUNT_OF_ARRAY(round_hz); i++) {
         hal_pwm_t pwm = {0};
-        double made_hz = io_slices_divide(PICO_HZ, round_hz[i], false, &pwm);
+        double made_hz = slices_divide(PICO_HZ, round_hz[i], false, &pwm);
         TEST_ASSERT_DOUBLE_WITHIN(round_hz[i] * 1e-9, round_hz[i], made_hz);
     }
 }
 
 static void test_frequencies_out_of_reach(void) {
     hal_pwm_t pwm = {.top = 7};
-    double lowest_hz = io_slices_lowest_hz(PICO_HZ);
-    double highest_hz = io_slices_highest_hz(PICO_HZ);
-    TEST_ASSERT_TRUE(io_slices_divide(PICO_HZ, lowest_hz * 1.0001, false, &pwm) > 0.0);
-    TEST_ASSERT_TRUE(io_slices_divide(PICO_HZ, highest_hz, false, &pwm) > 0.0);
+    double lowest_hz = slices_lowest_hz(PICO_HZ);
+    double highest_hz = slices_highest_hz(PICO_HZ);
+    TEST_ASSERT_TRUE(slices_divide(PICO_HZ, lowest_hz * 1.0001, false, &pwm) > 0.0);
+    TEST_ASSERT_TRUE(slices_divide(PICO_HZ, highest_hz, false, &pwm) > 0.0);
     TEST_ASSERT_EQUAL_UINT(3, pwm.top);
     static const double wrong[] = {0.0, -1.0, 7.0, 32e6, 1e300, NAN};
     for (size_t i = 0; i < COUNT_OF_ARRAY(wrong); i++) {
-        TEST_ASSERT_TRUE(io_slices_divide(PICO_HZ, wrong[i], false, &pwm) == 0.0);
+        TEST_ASSERT_TRUE(slices_divide(PICO_HZ, wrong[i], false, &pwm) == 0.0);
     }
     TEST_ASSERT_EQUAL_UINT(3, pwm.top); // a refused one changes nothing
 }

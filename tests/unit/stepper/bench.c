@@ -61,6 +61,14 @@ static void attach_once(void) {
     attached = true;
 }
 
+err_t bench_spindle(uint8_t gpio, bool invert) {
+    return stepper_spindle(&(stepper_spindle_t){
+        .gpio = gpio,
+        .dir_gpio = PINS_NONE,
+        .invert = invert,
+    });
+}
+
 static void start(const stepper_axis_t configs[AXIS_COUNT], uint32_t blocks, bool keeps_enabled) {
     attach_once();
     stepper_init_t init = {0.05, blocks, BENCH_ESTOP_GPIO, keeps_enabled};
@@ -68,7 +76,7 @@ static void start(const stepper_axis_t configs[AXIS_COUNT], uint32_t blocks, boo
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, stepper_axis(axis, &configs[axis]), err_message());
     }
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle(BENCH_SPINDLE_GPIO, false));
+    TEST_ASSERT_EQUAL(ERR_OK, bench_spindle(BENCH_SPINDLE_GPIO, false));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
     TEST_ASSERT_EQUAL(ERR_OK, stepper_run(STEPPER_IDLE_HOLD));
     bench_wait_us(1000);

@@ -5,6 +5,7 @@
 
 #include "simulate.h"
 #include "stepper/stepper.h"
+#include "stepper/stepper_outputs.h"
 
 #define BENCH_SPINDLE_GPIO 14u
 #define BENCH_ESTOP_GPIO 15u
@@ -28,6 +29,9 @@ void bench_start(void);
 
 // The same, all axes with this configuration (pins are filled in) and a queue of `blocks`.
 void bench_start_with(const stepper_axis_t *config, uint32_t blocks, bool estop_keeps_enabled);
+
+// A spindle that is switched on and off, without a direction pin.
+err_t bench_spindle(uint8_t gpio, bool invert);
 
 // Closes the machine.
 void bench_end(void);

@@ -183,9 +183,9 @@ static void test_dwell_and_spindle_keep_their_place(void) {
     bench_start();
     uint32_t spindle = pins_mask(BENCH_SPINDLE_GPIO);
     bench_move(1, 0, 0, 0, 600);
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(true));
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(STEPPER_SPINDLE_CW, 0));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_dwell(500));
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(false));
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(STEPPER_SPINDLE_OFF, 0));
     bench_move(2, 0, 0, 0, 600);
     bench_wait_us(60000);
     TEST_ASSERT_FALSE(hal_pins_read() & spindle); // still moving
@@ -218,7 +218,7 @@ static void test_configuration_between_moves_keeps_directions_right(void) {
     bench_start();
     bench_move(-2, -2, -2, -2, 600);
     bench_finish(10);
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle(BENCH_SPINDLE_GPIO, true));
+    TEST_ASSERT_EQUAL(ERR_OK, bench_spindle(BENCH_SPINDLE_GPIO, true));
     bench_move(-3, -1, -3, -3, 600);
     bench_finish(10);
     check_at(-3, -1, -3, -3);

@@ -24,7 +24,7 @@ static void test_nothing_works_before_init(void) {
     const char *message = "Stepper not initialized (use STEPPER INIT)";
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_axis(AXIS_X, &x_axis), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_limits(AXIS_X, 0, 1), message);
-    check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_spindle(14, false), message);
+    check_refused(ERR_STEPPER_NOT_INITIALIZED, bench_spindle(14, false), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_run(STEPPER_IDLE_HOLD), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_clear(), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_estop(), message);
@@ -33,7 +33,8 @@ static void test_nothing_works_before_init(void) {
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_set_position(AXIS_X, 1), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_move(&move), message);
     check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_dwell(1), message);
-    check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_spindle_switch(true), message);
+    check_refused(ERR_STEPPER_NOT_INITIALIZED, stepper_spindle_switch(STEPPER_SPINDLE_CW, 0),
+                  message);
     stepper_stop();
     TEST_ASSERT_EQUAL_INT(-1, stepper_active());
     TEST_ASSERT_EQUAL_UINT32(0, stepper_blocks_free());
@@ -62,7 +63,7 @@ static void test_pins_are_owned(void) {
     check_refused(ERR_PIN_IN_USE, stepper_axis(AXIS_Y, &y), "Pin GP16 (pin 21) is given twice");
     y.dir_gpio = 24;
     check_refused(ERR_PIN_INVALID, stepper_axis(AXIS_Y, &y), "Invalid pin GP24");
-    check_refused(ERR_PIN_IN_USE, stepper_spindle(4, false),
+    check_refused(ERR_PIN_IN_USE, bench_spindle(4, false),
                   "Pin GP4 (pin 6) is in use by STEPPER X enable");
     TEST_ASSERT_EQUAL(ERR_OK, stepper_close());
     TEST_ASSERT_NULL(pins_owner(2));
@@ -104,7 +105,7 @@ static void test_moves_that_are_refused(void) {
     move = to(100.1, 0);
     check_refused(ERR_SOFT_LIMIT, stepper_move(&move), "X position exceeds soft limits");
     check_refused(ERR_LIMITS_ORDER, stepper_limits(AXIS_X, 5, 5), "Min must be less than max");
-    check_refused(ERR_NO_SPINDLE_PIN, stepper_spindle_switch(true),
+    check_refused(ERR_NO_SPINDLE_PIN, stepper_spindle_switch(STEPPER_SPINDLE_CW, 0),
                   "Spindle pin not configured (use STEPPER SPINDLE)");
     TEST_ASSERT_EQUAL_UINT32(32, stepper_blocks_free());
     move = to(100, 0);
@@ -171,7 +172,7 @@ static void test_motion_forbids_configuration_but_not_questions(void) {
     bench_wait_us(100000);
     const char *message = "Not possible while motion is active or G-code is queued";
     check_refused(ERR_STEPPER_BUSY, stepper_axis(AXIS_X, &x_axis), message);
-    check_refused(ERR_STEPPER_BUSY, stepper_spindle(16, false), message);
+    check_refused(ERR_STEPPER_BUSY, bench_spindle(16, false), message);
     check_refused(ERR_STEPPER_BUSY, stepper_set_home(), message);
     check_refused(ERR_STEPPER_BUSY, stepper_set_position(AXIS_X, 3), message);
     check_refused(ERR_CLEAR_WHILE_ACTIVE, stepper_clear(),

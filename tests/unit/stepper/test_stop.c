@@ -132,7 +132,7 @@ static void test_emergency_stop_at_rest_keeps_the_position(void) {
 static void check_estop_pin(bool keeps_enabled) {
     bench_start_with(NULL, 32, keeps_enabled);
     press_estop(false);
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(true));
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_spindle_switch(STEPPER_SPINDLE_CW, 0));
     bench_move(500, 0, 0, 0, 6000);
     bench_wait_us(1000005);
     press_estop(true);

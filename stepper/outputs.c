@@ -1,0 +1,74 @@
+// What spindle and coolant are, and switching them off. A spindle with PWM is off in two ways: in
+// the queue its level becomes 0, which the slice takes up at the end of a period; in an emergency
+// the pin is taken from the slice, since a period may last as long as the user wishes. The next
+// switch in the queue gives it back. Contexts: see the header.
+#include "stepper/outputs.h"
+
+#include "hal/hal.h"
+#include "hal/hal_io.h"
+#include "stepper/segment_writer.h"
+
+outputs_t outputs = {
+    .spindle = {.gpio = PINS_NONE, .dir_gpio = PINS_NONE},
+    .coolant = {.flood_gpio = PINS_NONE, .mist_gpio = PINS_NONE},
+};
+
+uint16_t outputs_level(double rpm) {
+    if (outputs.counts == 0 || !(rpm > 0.0)) {
+        return 0;
+    }
+    const stepper_spindle_t *spindle = &outputs.spindle;
+    if (rpm > spindle->max_rpm) {
+        outputs.limited = outputs.limited == OUTPUTS_TOLD ? OUTPUTS_TOLD : OUTPUTS_LIMITED;
+        rpm = spindle->max_rpm;
+    }
+    rpm = rpm < spindle->min_rpm ? spindle->min_rpm : rpm;
+    return (uint16_t)(rpm / spindle->max_rpm * outputs.counts + 0.5);
+}
+
+bool outputs_coolant_on(uint8_t gpio) {
+    uint32_t mask = pins_mask(gpio);
+    return mask != 0 && ((hal_pins_read() & mask) != 0) != outputs.coolant.invert;
+}
+
+void outputs_follow(void) {
+    outputs.turn = outputs.turn_now;
+    outputs.level = segment_writer_level();
+    outputs.flood = outputs_coolant_on(outputs.coolant.flood_gpio);
+    outputs.mist = outputs_coolant_on(outputs.coolant.mist_gpio);
+}
+
+void outputs_begin(const block_t *block) {
+    outputs.turn_now = block->pins.turn;
+    if (outputs.counts != 0 && !outputs.pwm_connected) {
+        hal_pin_pwm(outputs.spindle.gpio);
+        outputs.pwm_connected = true;
+    }
+    segment_writer_set_level(block->level);
+}
+
+static void drive(uint32_t mask, bool high) {
+    hal_pins_set(high ? mask : 0);
+    hal_pins_clear(high ? 0 : mask);
+}
+
+void outputs_spindle_off(void) {
+    outputs.turn_now = STEPPER_SPINDLE_OFF;
+    segment_writer_set_level(0);
+    if (outputs.pwm_connected) {
+        outputs.pwm_connected = false;
+        hal_pin_output(outputs.spindle.gpio, outputs.spindle.invert);
+        hal_pwm_level(hal_pwm_place(HAL_PWM_SLICE(outputs.spindle.gpio)), 0);
+    }
+    drive(pins_mask(outputs.spindle.gpio), outputs.spindle.invert);
+}
+
+void outputs_coolant_off(void) {
+    drive(pins_mask(outputs.coolant.flood_gpio) | pins_mask(outputs.coolant.mist_gpio),
+          outputs.coolant.invert);
+}
+
+void outputs_off(void) {
+    outputs_spindle_off();
+    outputs_coolant_off();
+}

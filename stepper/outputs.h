@@ -1,0 +1,46 @@
+// The outputs that are switched in the queue: their pins, and how they are behind its end. Inside
+// stepper/ only. Context: main loop, if nothing else is said.
+#ifndef STEPPER_OUTPUTS_H
+#define STEPPER_OUTPUTS_H
+
+#include "stepper/planner.h"
+#include "stepper/stepper_outputs.h"
+
+enum { OUTPUTS_NOT_LIMITED, OUTPUTS_LIMITED, OUTPUTS_TOLD };
+
+typedef struct {
+    stepper_spindle_t spindle;
+    stepper_coolant_t coolant;
+    uint32_t counts;  // of a PWM period; 0: no PWM
+    uint8_t limited;  // a speed above the greatest was asked for; OUTPUTS_...
+    bool flood, mist; // behind the newest entry, as turn and level
+    uint8_t turn;
+    uint16_t level;              // counts of the PWM period; of all moves that are queued now
+    volatile uint8_t turn_now;   // as executed; governor
+    volatile bool pwm_connected; // the pin shows the slice; governor
+} outputs_t;
+
+extern outputs_t outputs;
+
+// Which level makes this speed; 0 without PWM.
+uint16_t outputs_level(double rpm);
+
+// Gives all their pins back. Nothing moves.
+void outputs_take_away(void);
+
+// The level of this coolant pin says on.
+bool outputs_coolant_on(uint8_t gpio);
+
+// After the queue was dropped: what is queued next follows what the outputs are now.
+void outputs_follow(void);
+
+// A block of switches is executed from now on. Context: governor.
+void outputs_begin(const block_t *block);
+
+// Off at once; nothing is being executed any more. Contexts: governor, main with the governor
+// locked.
+void outputs_spindle_off(void);
+void outputs_coolant_off(void);
+void outputs_off(void); // all of them
+
+#endif

@@ -1,0 +1,98 @@
+// What rides in the queue beside motion: spindle, coolant, pauses, and the line number of each
+// entry. A face of stepper/ beside stepper.h, whose rules apply. Context: main loop.
+#ifndef STEPPER_STEPPER_OUTPUTS_H
+#define STEPPER_STEPPER_OUTPUTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/base.h"
+
+// ---- Spindle ------------------------------------------------------------------------------------
+
+#define STEPPER_SPINDLE_RPM_MAX 1e6
+#define STEPPER_SPINDLE_PWM_HZ_DEFAULT 1000.0
+#define STEPPER_SPINDLE_SPINUP_MS_MAX 600000u
+
+typedef struct {
+    uint8_t gpio;       // PINS_NONE: there is no spindle
+    uint8_t dir_gpio;   // low: clockwise, high: counter-clockwise; PINS_NONE: clockwise only
+    bool invert;        // of gpio: low is on, with PWM the pulses are low
+    double max_rpm;     // at 100 % duty, 0..STEPPER_SPINDLE_RPM_MAX; 0: on and off only, no PWM
+    double min_rpm;     // lower speeds above 0 become this one, 0..max_rpm
+    double pwm_hz;      // > 0
+    uint32_t spinup_ms; // wait behind each start and reversal, 0..STEPPER_SPINDLE_SPINUP_MS_MAX
+} stepper_spindle_t;
+
+// Sets the spindle up, switched off, or takes it away. With PWM the pin's whole slice belongs to
+// it. A refused call changes nothing. Errors: not initialised, moving or queued, pins or slice
+// taken, one pin twice, a frequency that the board cannot make, min above max.
+err_t stepper_spindle(const stepper_spindle_t *config);
+
+typedef enum { STEPPER_SPINDLE_OFF, STEPPER_SPINDLE_CW, STEPPER_SPINDLE_CCW } stepper_turn_t;
+
+// Switches the spindle at this place of the queue, at standstill: one entry, which includes the
+// wait for spin-up if the spindle starts or turns round there. With PWM the duty is rpm / max_rpm;
+// without, rpm counts for nothing. A speed of 0 stands still. A speed above max_rpm becomes
+// max_rpm, see stepper_spindle_limited(). To change the speed in motion see
+// stepper_move_t.sets_spindle. Further errors: no spindle pin; CCW without a direction pin.
+err_t stepper_spindle_switch(stepper_turn_t turn, double rpm);
+
+// Whether stepper_spindle_switch() would be refused because of the spindle's pins; raises it.
+err_t stepper_spindle_check(stepper_turn_t turn);
+
+// True once after a speed above max_rpm was asked for since the spindle was set up.
+bool stepper_spindle_limited(void);
+
+// ---- Coolant ------------------------------------------------------------------------------------
+
+typedef struct {
+    uint8_t flood_gpio, mist_gpio; // PINS_NONE: there is none
+    bool invert;                   // low is on
+} stepper_coolant_t;
+
+// Sets the coolant up, switched off, or takes it away. A refused call changes nothing. Errors: not
+// initialised, moving or queued, pins taken, one pin twice.
+err_t stepper_coolant(const stepper_coolant_t *config);
+
+// Switches both at this place of the queue, at standstill: one entry. What should stay as it is:
+// stepper_coolant_queued(). Further errors: one that should be on has no pin.
+err_t stepper_coolant_switch(bool flood, bool mist);
+
+// How they will be behind all that is queued.
+void stepper_coolant_queued(bool *flood, bool *mist);
+
+// Whether stepper_coolant_switch() would be refused because of the pins; raises it.
+err_t stepper_coolant_check(bool flood, bool mist);
+
+// ---- Pause --------------------------------------------------------------------------------------
+
+// When this entry is reached the machine stands, drivers and spindle as they are, until
+// stepper_hold(false) goes on behind it; a stop drops it like everything else.
+err_t stepper_pause(void);
+
+// The machine stands at such an entry.
+bool stepper_paused(void);
+
+// ---- Line numbers -------------------------------------------------------------------------------
+
+// Entries queued from now on came from this line; 0: from none.
+void stepper_set_line(uint32_t line);
+
+// That of the entry being executed; 0: none is, or it came from none. 2 ms ahead of the motors.
+uint32_t stepper_line(void);
+
+// ---- Reports ------------------------------------------------------------------------------------
+
+typedef struct {
+    stepper_spindle_t spindle;
+    stepper_turn_t turn; // as of the last switch that was carried out
+    double rpm;          // now; without PWM 0
+    bool spindle_on;     // the output is on, with PWM at a speed above 0
+    stepper_coolant_t coolant;
+    bool flood, mist; // now
+} stepper_outputs_t;
+
+void stepper_outputs(stepper_outputs_t *outputs);
+
+#endif
