@@ -6,6 +6,7 @@
 #include "host_inputs.h"
 #include "host_serial.h"
 #include "host_tick.h"
+#include "simulate.h"
 
 static uint64_t clock_now_ns;
 
@@ -27,7 +28,9 @@ static uint64_t next_other_ns(void) {
     uint64_t alarm_ns = host_alarm_next_ns();
     uint64_t serial_ns = host_serial_next_ns();
     uint64_t next_ns = input_ns < alarm_ns ? input_ns : alarm_ns;
-    return next_ns < serial_ns ? next_ns : serial_ns;
+    uint64_t switch_ns = simulate_next_ns();
+    next_ns = next_ns < serial_ns ? next_ns : serial_ns;
+    return next_ns < switch_ns ? next_ns : switch_ns;
 }
 
 uint64_t host_clock_next_event_ns(void) {
@@ -46,6 +49,10 @@ static bool run_other(uint64_t now_ns) {
     }
     if (host_serial_next_ns() <= now_ns) {
         host_serial_notice(now_ns);
+        return true;
+    }
+    if (simulate_next_ns() <= now_ns) {
+        simulate_run(now_ns);
         return true;
     }
     host_alarm_run();

@@ -17,7 +17,7 @@
 #define PROGRAM_SIZE_MAX (16L * 1024 * 1024) // far beyond what the interpreter takes
 
 static const char usage[] =
-    "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv]\n"
+    "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv] [--machine MACHINE.txt]\n"
     "                [--flash IMAGE] [--flash-cut N[,before|,torn|,after]]\n"
     "                [--virtual|--realtime] [--help] [--version] [FILE.bas]\n";
 
@@ -32,6 +32,8 @@ static const char help[] =
     "  --trace EDGES.csv    write every edge of every output pin: time_ns,gpio,level\n"
     "  --inputs EVENTS.csv  edges to apply to input pins, same columns, times from the start;\n"
     "                       a level may be a voltage (1.65V), and gpio TEMP with 25.5C\n"
+    "  --machine FILE       simulate axes at the step and direction pins and the limit switches\n"
+    "                       they press: docs/user-guide.md has the format\n"
     "  --flash IMAGE        keep the flash storage in this file; it is made if it is missing\n"
     "  --flash-cut N        cut the power at the Nth flash write: before it, after it, or in the\n"
     "                       middle (torn, the default); leaves at once with code 3\n"
@@ -48,6 +50,7 @@ static const char help[] =
 enum {
     OPTION_TRACE = 256,
     OPTION_INPUTS,
+    OPTION_MACHINE,
     OPTION_FLASH,
     OPTION_FLASH_CUT,
     OPTION_VIRTUAL,
@@ -59,6 +62,7 @@ enum {
 static const struct option long_options[] = {
     {"trace", required_argument, NULL, OPTION_TRACE},
     {"inputs", required_argument, NULL, OPTION_INPUTS},
+    {"machine", required_argument, NULL, OPTION_MACHINE},
     {"flash", required_argument, NULL, OPTION_FLASH},
     {"flash-cut", required_argument, NULL, OPTION_FLASH_CUT},
     {"virtual", no_argument, NULL, OPTION_VIRTUAL},
@@ -161,6 +165,9 @@ const host_options_t *host_options_parse(int argc, char **argv) {
             break;
         case OPTION_INPUTS:
             options.inputs_path = optarg;
+            break;
+        case OPTION_MACHINE:
+            options.machine_path = optarg;
             break;
         case OPTION_FLASH:
             options.flash_path = optarg;

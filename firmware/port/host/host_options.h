@@ -7,10 +7,11 @@
 #include "host_storage.h"
 
 typedef struct {
-    const char *trace_path;  // NULL: edges are not recorded
-    const char *inputs_path; // NULL: no input events
-    const char *flash_path;  // NULL: storage is forgotten at exit
-    unsigned flash_cut;      // cut the power at this flash write; 0: never
+    const char *trace_path;   // NULL: edges are not recorded
+    const char *inputs_path;  // NULL: no input events
+    const char *machine_path; // NULL: nothing hangs at the pins
+    const char *flash_path;   // NULL: storage is forgotten at exit
+    unsigned flash_cut;       // cut the power at this flash write; 0: never
     host_storage_cut_t flash_cut_kind;
     const char *program_path; // NULL: the prompt is on the console
     bool realtime;            // virtual time follows wall time

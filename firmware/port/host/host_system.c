@@ -9,6 +9,7 @@
 #include "host_console.h"
 #include "host_idle.h"
 #include "host_inputs.h"
+#include "host_machine.h"
 #include "host_options.h"
 #include "host_signals.h"
 #include "host_storage.h"
@@ -30,6 +31,9 @@ void hal_init(int argc, char **argv) {
     host_storage_cut(options->flash_cut, options->flash_cut_kind);
     if (options->inputs_path != NULL) {
         host_inputs_load(options->inputs_path);
+    }
+    if (options->machine_path != NULL) {
+        host_machine_load(options->machine_path);
     }
     if (options->trace_path != NULL) {
         host_trace_open(options->trace_path);

@@ -1,4 +1,4 @@
-// Observers of the pins and the simulated axis. Context: any.
+// Observers of the pins and the simulated axes. Context: any.
 #include "simulate.h"
 
 #include "host_pads.h"
@@ -39,31 +39,13 @@ static void axis_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t
     axis->pulses++;
     axis->last_step_ns = time_ns;
     bool up = ((levels & pins_mask(axis->dir_gpio)) != 0) != axis->dir_inverted;
-    if (!is_missed(axis)) {
-        axis->position_steps += up ? 1 : -1;
+    int64_t next = axis->position_steps + (up ? 1 : -1);
+    bool blocked = axis->has_stops && (next < axis->stop_low_steps || next > axis->stop_high_steps);
+    if (!is_missed(axis) && !blocked) {
+        axis->position_steps = next;
     }
 }
 
 bool simulate_axis_attach(simulate_axis_t *axis) {
     return simulate_observe(axis_edges, axis);
-}
-
-static bool is_pressed(const simulate_switch_t *limit) {
-    int64_t at = limit->axis->position_steps;
-    bool pressed = at >= limit->from_steps && at <= limit->to_steps;
-    return limit->fault == SIMULATE_FAULT_NEVER_OPENS ||
-           (pressed && limit->fault != SIMULATE_FAULT_NEVER_CLOSES);
-}
-
-static void switch_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels) {
-    const simulate_switch_t *limit = state;
-    (void)time_ns;
-    if ((changed & levels & pins_mask(limit->axis->step_gpio)) != 0) {
-        host_pads_drive(limit->gpio, is_pressed(limit) == limit->pressed_level);
-    }
-}
-
-bool simulate_switch_attach(simulate_switch_t *limit) {
-    host_pads_drive(limit->gpio, is_pressed(limit) == limit->pressed_level);
-    return simulate_observe(switch_edges, limit);
 }
