@@ -283,25 +283,34 @@ void args_compile_command(int row) {
     emit_byte(count);
 }
 
+// The same for functions, whose words stand in the parentheses and may be none.
+static int find_function(int row, const char **behind) {
+    const char *start = lexer_now()->text;
+    size_t longest = 0;
+    int found = WORDS_NONE;
+    for (; row != WORDS_NONE; row = words_next(WORDS_HOST_FUNCTION, row)) {
+        const char *keyword = rows_function((unsigned)row)->keyword;
+        const char *end = keyword == NULL ? start : match_words(keyword, start);
+        size_t length = keyword == NULL ? 0 : strlen(keyword);
+        if (end != NULL && (found == WORDS_NONE || length > longest)) {
+            longest = length;
+            found = row;
+            *behind = end;
+        }
+    }
+    return found;
+}
+
 void args_compile_function(int row) {
     const char *name = rows_function((unsigned)row)->name;
     lexer_next();
     bool parentheses = lexer_take('(');
-    int found = WORDS_NONE;
-    for (; row != WORDS_NONE; row = words_next(WORDS_HOST_FUNCTION, row)) {
-        const char *keyword = rows_function((unsigned)row)->keyword;
-        if (keyword != NULL && lexer_is_word(keyword)) {
-            found = row;
-            lexer_next();
-            break;
-        }
-        if (keyword == NULL) {
-            found = row;
-        }
-    }
+    const char *behind;
+    int found = find_function(row, &behind);
     if (found == WORDS_NONE) {
         errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%s", name);
     }
+    lexer_go(behind);
     const basic_function_t *function = rows_function((unsigned)found);
     if (!parentheses && function->arg_count > 0) {
         errors_fail(ERR_SYNTAX);

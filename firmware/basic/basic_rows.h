@@ -125,8 +125,9 @@ typedef err_t (*basic_evaluate_t)(const basic_arg_t *args, size_t count, basic_v
 
 typedef struct {
     const char *name;    // in capitals: "PEEK"
-    const char *keyword; // a first word inside the parentheses that selects this row, followed by a
-                         // blank instead of a comma: PEEK(STEPPER X) has "STEPPER". NULL: none
+    const char *keyword; // first words inside the parentheses that select this row, followed by a
+                         // blank instead of a comma: PEEK(STEPPER X) has "STEPPER". NULL: none. Of
+                         // two that match the longer one wins
     const basic_arg_spec_t *args;
     size_t arg_count;
     basic_evaluate_t evaluate;
