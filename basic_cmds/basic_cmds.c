@@ -3,6 +3,7 @@
 
 #include "basic_cmds/com.h"
 #include "basic_cmds/control.h"
+#include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/i2c.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
@@ -33,6 +34,7 @@ void basic_cmds_clear(void) {
 void basic_cmds_background(void) {
     setpin_background();
     com_background();
+    gcode_lines_background();
     if (stepper_next_event() == STEPPER_EVENT_ESTOP) {
         basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
     }

@@ -1,6 +1,7 @@
 // STEPPER INIT, AXIS, LIMITS, SPINDLE, COOLANT, JUNCTION, SCURVE, JERK, ARC LEGACY. Context: main loop.
 #include "basic_cmds/configure.h"
 
+#include "basic_cmds/gcode_lines.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
@@ -16,7 +17,7 @@ err_t configure_init(const basic_arg_t *args, size_t count) {
     };
     err_t err = stepper_init(&config);
     if (err == ERR_OK) {
-        gcode_reset();
+        gcode_lines_reset();
         basic_printf("Stepper initialized, buffer %u\n", (unsigned)config.blocks);
     }
     return err;
@@ -104,7 +105,9 @@ err_t configure_arc_legacy(const basic_arg_t *args, size_t count) {
     (void)count;
     err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
-        gcode_set_arc_legacy(args[0].integer != 0);
+        gcode_options_t options = *gcode_options();
+        options.arc_legacy = args[0].integer != 0;
+        gcode_set_options(&options);
     }
     return err;
 }

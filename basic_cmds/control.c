@@ -1,8 +1,6 @@
-// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION, GC, GS, GCODE.
-// Context: main loop.
+// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION. Context: main loop.
 #include "basic_cmds/control.h"
 
-#include <ctype.h>
 #include <math.h>
 
 #include "gcode/gcode.h"
@@ -140,39 +138,6 @@ err_t control_position_home(const basic_arg_t *args, size_t count) {
 err_t control_position(const basic_arg_t *args, size_t count) {
     (void)count;
     return stepper_set_position((axis_id_t)args[0].integer, args[1].number);
-}
-
-err_t control_gcode_text(const basic_arg_t *args, size_t count) {
-    (void)count;
-    return gcode_line(args[0].text.text, args[0].text.length);
-}
-
-// The first argument is a code such as G1 or G92, the others are pairs of a letter and a value.
-err_t control_gcode_words(const basic_arg_t *args, size_t count) {
-    gcode_word_t words[GCODE_WORDS_MAX];
-    size_t used = 0;
-    const basic_text_t *code = &args[0].text;
-    num_t number;
-    if (code->length > 0) {
-        const char *end = code->text + code->length;
-        char letter = (char)toupper((unsigned char)code->text[0]);
-        if ((letter != 'G' && letter != 'M') ||
-            num_parse(code->text + 1, end, false, &number) != end) {
-            return err_raise(ERR_GCODE_UNSUPPORTED, "%.*s", (int)code->length, code->text);
-        }
-        words[used++] = (gcode_word_t){.letter = letter, .value = number.value};
-    }
-    for (size_t i = 1; i + 1 < count && used < GCODE_WORDS_MAX; i += 2) {
-        const basic_text_t *name = &args[i].text;
-        if (name->length != 1) {
-            return err_raise(ERR_GCODE_UNKNOWN_WORD, "%.*s", (int)name->length, name->text);
-        }
-        words[used++] = (gcode_word_t){
-            .letter = (char)toupper((unsigned char)name->text[0]),
-            .value = args[i + 1].number,
-        };
-    }
-    return gcode_words(words, used);
 }
 
 #define OPTION_ERROR "ERROR"

@@ -16,8 +16,6 @@ err_t control_estop(const basic_arg_t *args, size_t count);
 err_t control_close(const basic_arg_t *args, size_t count);
 err_t control_position_home(const basic_arg_t *args, size_t count);
 err_t control_position(const basic_arg_t *args, size_t count);
-err_t control_gcode_text(const basic_arg_t *args, size_t count);
-err_t control_gcode_words(const basic_arg_t *args, size_t count);
 
 // Where each argument stands in the row's spec.
 enum { JOG_AXIS, JOG_DISTANCE, JOG_FEED, JOG_ARGS };

@@ -19,10 +19,6 @@ static const char *unit_of(axis_id_t axis) {
     return axis == AXIS_A ? "deg" : "mm";
 }
 
-static double work_position(axis_id_t axis) {
-    return stepper_position(axis) - gcode_offset(axis);
-}
-
 static void print_axis(axis_id_t axis) {
     stepper_axis_t config;
     if (!stepper_axis_config(axis, &config)) {
@@ -31,8 +27,8 @@ static void print_axis(axis_id_t axis) {
     char name = STEPPER_AXIS_LETTERS[axis];
     const char *unit = unit_of(axis);
     double velocity = fmin(config.max_velocity, stepper_step_rate_limit(axis));
-    basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, work_position(axis), unit,
-                 stepper_position(axis), unit, (long)stepper_position_steps(axis));
+    basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, gcode_work_position(axis),
+                 unit, stepper_position(axis), unit, (long)stepper_position_steps(axis));
     basic_printf("%c pins: step %s, dir %s%s, enable %s\n", name, pins_name(config.step_gpio),
                  pins_name(config.dir_gpio), config.dir_invert ? " inverted" : "",
                  pins_name(config.enable_gpio));
@@ -89,7 +85,7 @@ static void print_path_mode(void) {
         basic_printf("Path mode: G64 P%g", path.blend_mm);
         break;
     }
-    basic_printf(", A on arcs: %s\n", gcode_arc_legacy() ? "ignored" : "turns along");
+    basic_printf(", A on arcs: %s\n", gcode_options()->arc_legacy ? "ignored" : "turns along");
 }
 
 static void print_outputs(void) {
@@ -154,7 +150,7 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
         if (!stepper_axis_configured(axis)) {
             return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
-        *result = (basic_value_t){.type = BASIC_FLOAT, .number = work_position(axis)};
+        *result = (basic_value_t){.type = BASIC_FLOAT, .number = gcode_work_position(axis)};
         return ERR_OK;
     }
     if (what == PEEK_SPEED) {

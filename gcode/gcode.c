@@ -1,146 +1,105 @@
-// Modal state and execution. A line is read whole, checked whole, carried out as at most one move
-// or other entry of the motion queue, and only then does it change the modal state. Context: main
-// loop.
+// The machine's interpreter and what others may ask it. Context: main loop.
 #include "gcode/gcode.h"
 
 #include <string.h>
 
-#include "gcode/gcode_arc.h"
-#include "gcode/gcode_lexer.h"
-#include "gcode/gcode_words.h"
-#include "stepper/rules.h"
-#include "stepper/stepper_outputs.h"
+#include "gcode/gcode_interpreter.h"
+#include "gcode/gcode_offsets.h"
 
-static struct {
-    modal_t modal;
-    double offset[AXIS_COUNT];
-    bool arc_legacy; // A words of arcs are ignored
-} gcode;
+gcode_interpreter_t gcode_live = {.sink = &gcode_machine};
 
-// ---- Carrying out -------------------------------------------------------------------------------
-
-static void find_move(stepper_move_t *wanted, const line_t *line) {
-    *wanted = (stepper_move_t){
-        .feed = line->modal.feed,
-        .rapid = line->modal.motion == MOTION_RAPID,
-        .corner = line->modal.path.corner,
-        .blend_mm = line->modal.path.blend_mm,
-    };
-    uint32_t given = line->axes;
-    if (line_is_arc(line) && gcode.arc_legacy) {
-        given &= ~(1u << AXIS_A);
-    }
-    stepper_target(wanted->target);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if ((given >> axis) & 1) {
-            wanted->target[axis] = line->axis[axis] + (line->modal.relative ? wanted->target[axis]
-                                                                            : gcode.offset[axis]);
-        }
-    }
-}
-
-static err_t move(const line_t *line) {
-    if (line->modal.motion == MOTION_NONE) {
-        return err_raise(ERR_GCODE_NO_MOTION, NULL);
-    }
-    if (line->modal.motion != MOTION_RAPID && line->modal.feed <= 0.0) {
-        return err_raise(ERR_GCODE_NO_FEED, NULL);
-    }
-    stepper_arc_t wanted = {.turns = line->has_p ? (uint32_t)line->p : 1};
-    find_move(&wanted.move, line);
-    if (!line_is_arc(line)) {
-        return stepper_move(&wanted.move);
-    }
-    err_t err = gcode_arc_find(&wanted, line);
-    return err == ERR_OK ? stepper_arc(&wanted) : err;
-}
-
-// G92: the last commanded position gets these coordinates; moves that wait keep their way.
-static err_t set_offsets(const line_t *line) {
-    err_t err = rules_check(RULES_DO_OFFSET);
-    if (err != ERR_OK) {
-        return err;
-    }
-    double target[AXIS_COUNT];
-    stepper_target(target);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if ((line->axes >> axis) & 1) {
-            gcode.offset[axis] = target[axis] - line->axis[axis];
-        }
-    }
-    return ERR_OK;
-}
-
-static err_t carry_out(const line_t *line) {
-    switch (line->action) {
-    case ACTION_MOVE:
-        return move(line);
-    case ACTION_DWELL:
-        return stepper_dwell(line->p);
-    case ACTION_OFFSET:
-        return set_offsets(line);
-    case ACTION_SPINDLE:
-        return stepper_spindle_switch(line->spindle_on ? STEPPER_SPINDLE_CW : STEPPER_SPINDLE_OFF,
-                                      0.0);
-    case ACTION_NONE:
-    case ACTION_HOME:
-        break;
-    }
-    return ERR_OK;
-}
-
-err_t gcode_words(const gcode_word_t *words, size_t count) {
-    line_t line;
-    err_t err = rules_check(RULES_DO_GCODE);
-    if (err == ERR_OK) {
-        err = gcode_words_read(&line, &gcode.modal, words, count);
-    }
-    if (err == ERR_OK) {
-        err = carry_out(&line);
-    }
-    if (err == ERR_OK) {
-        gcode.modal = line.modal;
-    }
-    return err;
+static err_t check_initialized(void) {
+    return stepper_active() < 0 ? err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL) : ERR_OK;
 }
 
 err_t gcode_line(const char *text, size_t length) {
-    gcode_word_t words[GCODE_WORDS_MAX];
-    size_t count;
-    err_t err = gcode_lexer_split(text, length, words, &count);
-    return err == ERR_OK ? gcode_words(words, count) : err;
+    err_t err = check_initialized();
+    return err == ERR_OK ? gcode_interpreter_line(&gcode_live, text, length) : err;
 }
 
+err_t gcode_words(const gcode_word_t *words, size_t count) {
+    err_t err = check_initialized();
+    return err == ERR_OK ? gcode_interpreter_words(&gcode_live, words, count) : err;
+}
+
+void gcode_background(void) {
+    gcode_interpreter_background(&gcode_live);
+}
+
+bool gcode_busy(void) {
+    return gcode_live.busy;
+}
+
+bool gcode_must_wait(void) {
+    return gcode_live.waits;
+}
+
+err_t gcode_failure(void) {
+    return gcode_interpreter_failure(&gcode_live);
+}
+
+bool gcode_take_end(void) {
+    bool ended = gcode_live.ended;
+    gcode_live.ended = false;
+    return ended;
+}
+
+// ---- State --------------------------------------------------------------------------------------
+
 void gcode_reset_modal(void) {
-    gcode.modal = (modal_t){.motion = MOTION_NONE};
+    gcode_state_t *state = &gcode_live.state;
+    state->modal = (modal_t){
+        .system = state->modal.system,
+        .shifted = state->modal.shifted,
+        .spindle = state->modal.spindle,
+        .flood = state->modal.flood,
+        .mist = state->modal.mist,
+        .rpm = state->modal.rpm,
+        .tool_length_mm = state->modal.tool_length_mm,
+        .tool = state->modal.tool,
+        .next_tool = state->modal.next_tool,
+    };
+    gcode_live.busy = false;
+    gcode_live.waits = false;
 }
 
 void gcode_clear_offsets(void) {
-    memset(gcode.offset, 0, sizeof gcode.offset);
+    memset(gcode_live.state.shift, 0, sizeof gcode_live.state.shift);
+    gcode_live.state.modal.shifted = false;
+    gcode_offsets_sum(&gcode_live.state);
 }
 
 void gcode_reset(void) {
-    gcode_reset_modal();
+    gcode_state_t *state = &gcode_live.state;
+    state->modal = (modal_t){.tool_length_mm = state->modal.tool_length_mm};
+    state->options = (gcode_options_t){0};
+    gcode_live.busy = false;
+    gcode_live.waits = false;
+    gcode_live.ended = false;
+    gcode_live.failure = ERR_OK;
     gcode_clear_offsets();
-    gcode.arc_legacy = false;
 }
 
-void gcode_set_arc_legacy(bool legacy) {
-    gcode.arc_legacy = legacy;
+const gcode_options_t *gcode_options(void) {
+    return &gcode_live.state.options;
 }
 
-bool gcode_arc_legacy(void) {
-    return gcode.arc_legacy;
+void gcode_set_options(const gcode_options_t *options) {
+    gcode_live.state.options = *options;
 }
 
 gcode_plane_t gcode_plane(void) {
-    return gcode.modal.plane;
+    return (gcode_plane_t)gcode_live.state.modal.plane;
 }
 
 gcode_path_t gcode_path(void) {
-    return gcode.modal.path;
+    return gcode_live.state.modal.path;
 }
 
 double gcode_offset(axis_id_t axis) {
-    return gcode.offset[axis];
+    return gcode_live.state.offset[axis];
+}
+
+double gcode_work_position(axis_id_t axis) {
+    return stepper_position(axis) - gcode_live.state.offset[axis];
 }

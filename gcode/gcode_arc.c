@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "gcode/gcode_plan.h"
+
 #define SAME_PLACE_MM 1e-6
 #define RADIUS_MIN_MM 0.001
 
@@ -19,9 +21,7 @@ static char letter_of(axis_id_t axis) {
 
 // Half a circle is the largest arc of a positive R and the smallest of a negative one. If R falls
 // short of it by no more than rounded coordinates may, it is meant.
-static err_t centre_by_radius(stepper_arc_t *arc, double r) {
-    double start[AXIS_COUNT];
-    stepper_target(start);
+static err_t centre_by_radius(stepper_arc_t *arc, double r, const double start[AXIS_COUNT]) {
     double x = arc->move.target[arc->plane[0]] - start[arc->plane[0]];
     double y = arc->move.target[arc->plane[1]] - start[arc->plane[1]];
     double chord = sqrt(x * x + y * y);
@@ -43,19 +43,40 @@ static err_t centre_by_radius(stepper_arc_t *arc, double r) {
     return ERR_OK;
 }
 
-err_t gcode_arc_find(stepper_arc_t *arc, const line_t *line) {
+// The centre's words count from the start, or with G90.1 from the work zero.
+static err_t centre_by_words(stepper_arc_t *arc, const line_t *line, const gcode_state_t *state,
+                             const double start[AXIS_COUNT]) {
+    const axis_id_t *plane = arc->plane;
+    for (unsigned n = 0; n < 2; n++) {
+        word_t word = (word_t)(WORD_I + plane[n]);
+        arc->centre[n] = line_has(line, word) ? line->value[word] : 0.0;
+        if (!line->modal.centre_absolute) {
+            continue;
+        }
+        if (!line_has(line, word)) {
+            return err_raise(ERR_GCODE_ARC_ABSOLUTE, "%c %c", letter_of(plane[0]),
+                             letter_of(plane[1]));
+        }
+        arc->centre[n] += gcode_plan_offset(line, state, plane[n]) - start[plane[n]];
+    }
+    return ERR_OK;
+}
+
+err_t gcode_arc_find(stepper_arc_t *arc, const line_t *line, const gcode_state_t *state,
+                     const double from[AXIS_COUNT]) {
     const axis_id_t *plane = planes[line->modal.plane];
     axis_id_t across = (axis_id_t)(AXIS_X + AXIS_Y + AXIS_Z - plane[0] - plane[1]);
     arc->clockwise = line->modal.motion == MOTION_ARC_CW;
-    for (unsigned n = 0; n < 2; n++) {
-        arc->plane[n] = plane[n];
-        arc->centre[n] = line->centre[plane[n]];
-    }
-    if ((line->centres >> across) & 1) {
+    arc->turns = line_has(line, WORD_P) ? (uint32_t)line->value[WORD_P] : 1;
+    arc->plane[0] = plane[0];
+    arc->plane[1] = plane[1];
+    if (line_has(line, (word_t)(WORD_I + across))) {
         return err_raise(ERR_GCODE_ARC_PLANE, "%c", letter_of(across));
     }
-    if (line->has_r == (line->centres != 0)) {
+    bool by_radius = line_has(line, WORD_R);
+    if (by_radius == ((line->words & WORDS_CENTRE) != 0)) {
         return err_raise(ERR_GCODE_ARC_CENTRE, "%c %c", letter_of(plane[0]), letter_of(plane[1]));
     }
-    return line->has_r ? centre_by_radius(arc, line->r) : ERR_OK;
+    return by_radius ? centre_by_radius(arc, line->value[WORD_R], from)
+                     : centre_by_words(arc, line, state, from);
 }

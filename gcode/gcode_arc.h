@@ -4,8 +4,9 @@
 
 #include "gcode/gcode_words.h"
 
-// Fills in the plane, the centre and the direction that the line asks for; the move's target is
-// known.
-err_t gcode_arc_find(stepper_arc_t *arc, const line_t *line);
+// Fills in the plane, the centre, the direction and the turns that the line asks for; the move's
+// target is known.
+err_t gcode_arc_find(stepper_arc_t *arc, const line_t *line, const gcode_state_t *state,
+                     const double from[AXIS_COUNT]);
 
 #endif

@@ -9,13 +9,36 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\n';
 }
 
+// Whether the text between p and end begins with `MSG,`, with blanks before; returns what is behind.
+static const char *behind_msg(const char *p, const char *end) {
+    static const char key[] = "MSG,";
+    while (p < end && (*p == ' ' || *p == '\t')) {
+        p++;
+    }
+    for (const char *k = key; *k != '\0'; k++, p++) {
+        if (p == end || toupper((unsigned char)*p) != *k) {
+            return NULL;
+        }
+    }
+    return p;
+}
+
+static void keep_message(gcode_lexed_t *lexed, const char *p, const char *end) {
+    const char *message = behind_msg(p, end);
+    if (message != NULL) {
+        lexed->message = message;
+        lexed->message_length = (size_t)(end - message);
+    }
+}
+
 // Past blanks and comments. A parenthesis that is never closed is a comment to the end of the line.
-static const char *skip_blanks(const char *p, const char *end) {
+static const char *skip_blanks(const char *p, const char *end, gcode_lexed_t *lexed) {
     while (p < end) {
         if (is_blank(*p)) {
             p++;
         } else if (*p == '(') {
             const char *close = memchr(p, ')', (size_t)(end - p));
+            keep_message(lexed, p + 1, close != NULL ? close : end);
             p = close != NULL ? close + 1 : end;
         } else if (*p == ';' || *p == '\'') {
             p = end;
@@ -35,10 +58,11 @@ static err_t unexpected(char c) {
 }
 
 // The number at `p`, with its sign. NULL if there is none.
-static const char *read_number(const char *p, const char *end, double *value) {
+static const char *read_number(const char *p, const char *end, double *value,
+                               gcode_lexed_t *lexed) {
     bool negative = p < end && *p == '-';
     if (p < end && (*p == '-' || *p == '+')) {
-        p = skip_blanks(p + 1, end);
+        p = skip_blanks(p + 1, end, lexed);
     }
     num_t number;
     p = num_parse(p, end, false, &number);
@@ -48,23 +72,36 @@ static const char *read_number(const char *p, const char *end, double *value) {
     return p;
 }
 
-err_t gcode_lexer_split(const char *text, size_t length, gcode_word_t *words, size_t *count) {
+// Past what may stand before the first word; `end` if the line counts for nothing.
+static const char *begin(const char *text, const char *end, bool block_delete,
+                         gcode_lexed_t *lexed) {
+    const char *p = skip_blanks(text, end, lexed);
+    if (p < end && *p == '/') {
+        p = block_delete ? end : skip_blanks(p + 1, end, lexed);
+    }
+    return p < end && *p == '%' ? end : p;
+}
+
+err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcode_lexed_t *lexed) {
     const char *end = text + length;
-    *count = 0;
-    for (const char *p = skip_blanks(text, end); p < end; p = skip_blanks(p, end)) {
+    lexed->count = 0;
+    lexed->message_length = 0;
+    for (const char *p = begin(text, end, block_delete, lexed); p < end;
+         p = skip_blanks(p, end, lexed)) {
         if (!isalpha((unsigned char)*p)) {
             return unexpected(*p);
         }
-        if (*count == GCODE_WORDS_MAX) {
+        if (lexed->count == GCODE_WORDS_MAX) {
             return err_raise(ERR_GCODE_TOO_MANY_WORDS, NULL);
         }
-        gcode_word_t *word = &words[*count];
+        gcode_word_t *word = &lexed->words[lexed->count];
         word->letter = (char)toupper((unsigned char)*p);
-        p = read_number(skip_blanks(p + 1, end), end, &word->value);
+        p = read_number(skip_blanks(p + 1, end, lexed), end, &word->value, lexed);
         if (p == NULL) {
-            return err_raise(ERR_GCODE_MISSING_VALUE, "%c", word->letter);
+            return word->letter == 'O' ? err_raise(ERR_GCODE_O_WORD, NULL)
+                                       : err_raise(ERR_GCODE_MISSING_VALUE, "%c", word->letter);
         }
-        (*count)++;
+        lexed->count++;
     }
     return ERR_OK;
 }

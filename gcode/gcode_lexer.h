@@ -4,8 +4,16 @@
 
 #include "gcode/gcode.h"
 
-// Takes `text` apart into at most GCODE_WORDS_MAX words. Blanks, tabs and commas may stand anywhere
-// between letter and number as well as between words. Errors name the place.
-err_t gcode_lexer_split(const char *text, size_t length, gcode_word_t *words, size_t *count);
+typedef struct {
+    gcode_word_t *words; // GCODE_WORDS_MAX of them, the caller's
+    size_t count;
+    const char *message; // of the last (MSG,...) comment, within the text
+    size_t message_length;
+} gcode_lexed_t;
+
+// Takes `text` apart. Blanks, tabs and commas may stand anywhere between letter and number as well
+// as between words. A line that begins with % is empty; so is one that begins with / if
+// `block_delete`, else the / is skipped. Errors name the place.
+err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcode_lexed_t *lexed);
 
 #endif

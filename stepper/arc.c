@@ -111,8 +111,12 @@ void arc_extent(const arc_t *arc, unsigned n, double *low, double *high) {
     *high = arc->centre[n] + (passes(arc, n == 0 ? 0 : 1) ? fmax(arc->radius, end) : end);
 }
 
+double arc_way(const arc_t *arc) {
+    return arc->radius * fabs(arc->turns) * RADIANS_PER_TURN;
+}
+
 bool arc_is_below_a_step(const arc_t *arc) {
-    double way = arc->radius * fabs(arc->turns) * RADIANS_PER_TURN;
+    double way = arc_way(arc);
     return way * axes[arc->plane[0]].config.steps_per_unit < 0.5 &&
            way * axes[arc->plane[1]].config.steps_per_unit < 0.5;
 }
@@ -160,7 +164,7 @@ static void limit_turning(geometry_t *g, const arc_t *arc, float in_plane, float
 
 void arc_geometry(geometry_t *g, const arc_t *arc, const double delta[AXIS_COUNT],
                   const stepper_move_t *move) {
-    double way = arc->radius * fabs(arc->turns) * RADIANS_PER_TURN;
+    double way = arc_way(arc);
     axis_id_t third = (axis_id_t)(AXIS_X + AXIS_Y + AXIS_Z - arc->plane[0] - arc->plane[1]);
     double linear2 = way * way + delta[third] * delta[third];
     g->length = (float)sqrt(linear2 + delta[AXIS_A] * delta[AXIS_A]);

@@ -21,6 +21,9 @@ err_t arc_measure(arc_t *arc, const stepper_arc_t *wanted, const double from[AXI
 // How far the way goes behind its start, along the n-th axis of the plane, in machine coordinates.
 void arc_extent(const arc_t *arc, unsigned n, double *low, double *high);
 
+// The way in its plane, units.
+double arc_way(const arc_t *arc);
+
 // No motor has to move for it, provided that its end is at the step where it starts.
 bool arc_is_below_a_step(const arc_t *arc);
 

@@ -7,6 +7,7 @@
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_check.h"
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
 
@@ -88,23 +89,30 @@ static err_t check_arc(const arc_t *arc) {
     return err;
 }
 
+// All that can be said of an arc from `from` on.
+static err_t check_arc_from(const double from[AXIS_COUNT], const stepper_arc_t *wanted, arc_t *arc,
+                            int32_t steps[AXIS_COUNT]) {
+    err_t err = ERR_OK;
+    for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
+        err = machine_check_axis(wanted->plane[n]);
+    }
+    if (err == ERR_OK) {
+        err = check_target(&wanted->move, from, steps);
+    }
+    if (err == ERR_OK) {
+        err = arc_measure(arc, wanted, from);
+    }
+    return err == ERR_OK ? check_arc(arc) : err;
+}
+
 err_t stepper_arc(const stepper_arc_t *wanted) {
     double from[AXIS_COUNT];
     int32_t steps[AXIS_COUNT];
     arc_t arc;
     err_t err = rules_check(RULES_DO_MOVE);
-    for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
-        err = machine_check_axis(wanted->plane[n]);
-    }
     if (err == ERR_OK) {
         moves_target(from);
-        err = check_target(&wanted->move, from, steps);
-    }
-    if (err == ERR_OK) {
-        err = arc_measure(&arc, wanted, from);
-    }
-    if (err == ERR_OK) {
-        err = check_arc(&arc);
+        err = check_arc_from(from, wanted, &arc, steps);
     }
     if (err == ERR_OK) {
         uint16_t level = outputs.level;
@@ -113,6 +121,37 @@ err_t stepper_arc(const stepper_arc_t *wanted) {
             push_level(level);
         }
         hal_governor_request();
+    }
+    return err;
+}
+
+// What forbids any move, room in the queue apart.
+static err_t check_later_move(void) {
+    err_t err = rules_check(RULES_DO_MOVE);
+    return err == ERR_GCODE_BUFFER_FULL ? ERR_OK : err; // which is asked for last
+}
+
+err_t stepper_check_line(const double from[AXIS_COUNT], const stepper_move_t *move) {
+    int32_t steps[AXIS_COUNT];
+    err_t err = check_later_move();
+    return err == ERR_OK ? check_target(move, from, steps) : err;
+}
+
+err_t stepper_check_arc(const double from[AXIS_COUNT], const stepper_arc_t *wanted) {
+    int32_t steps[AXIS_COUNT];
+    arc_t arc;
+    err_t err = check_later_move();
+    return err == ERR_OK ? check_arc_from(from, wanted, &arc, steps) : err;
+}
+
+err_t stepper_arc_way(const double from[AXIS_COUNT], const stepper_arc_t *wanted, double *way_mm) {
+    arc_t arc;
+    err_t err = arc_measure(&arc, wanted, from);
+    if (err == ERR_OK) {
+        axis_id_t across = (axis_id_t)(AXIS_X + AXIS_Y + AXIS_Z - arc.plane[0] - arc.plane[1]);
+        double rise = wanted->move.target[across] - from[across];
+        double round = arc_way(&arc);
+        *way_mm = sqrt(round * round + rise * rise);
     }
     return err;
 }

@@ -113,7 +113,7 @@ static void test_modal_motion_and_distance(void) {
 
 static void test_a_turns_along(void) {
     check_way("G2 X10 I5 A90", AXIS_A, 0, 90, 90);
-    gcode_set_arc_legacy(true);
+    gcode_set_options(&(gcode_options_t){.arc_legacy = true});
     check_way("G2 X0 I-5 A0", AXIS_A, 90, 90, 90);
     check_way("G1 X10 A0", AXIS_A, 0, 90, 0); // lines are as always
     gcode_reset();
@@ -151,16 +151,16 @@ static void test_refusals(void) {
     check_refused("G2 X10 I5 P101", "P: 101 is invalid (valid is whole turns, 1 to 100)");
     check_refused("G2 X10 I5 I4", "I given twice");
     check_refused("G2 X10 R5 R6", "R given twice");
-    check_refused("G1 X10 I5", "I, J, K and R only valid with G2 and G3");
-    check_refused("G0 X10 R5", "I, J, K and R only valid with G2 and G3");
-    check_refused("G92 X10 R5", "Motion, G4, G28, G92, M3 and M5 need a line each");
-    check_refused("G4 P5 I1", "Motion, G4, G28, G92, M3 and M5 need a line each");
+    check_refused("G1 X10 I5", "Nothing in this line uses I");
+    check_refused("G0 X10 R5", "Nothing in this line uses R");
+    check_refused("G92 X10 R5", "Nothing in this line uses R");
+    check_refused("G4 P5 G1 I1", "Nothing in this line uses I");
     check_refused("G17 G18", "Two planes in one line");
     check_refused("G2 G3 X10 I5", "Two motion modes in one line");
     check_refused("G2 X3 Y3 R9999999", "The radius of the arc is too large");
     check_refused("G2 X10 I99999999999", "The end is 10.000 mm off the arc");
     check_refused("G2 X10 I5 F0", "F: 0 is invalid (valid is 0.001 to 1e+09)");
-    check_refused("I5", "I, J, K and R only valid with G2 and G3");
+    check_refused("I5", "Nothing in this line uses I");
     gcode_reset();
     check_refused("G2 X10 I5", "Feedrate not set (give F once, in mm/min)");
 }
@@ -196,9 +196,9 @@ static void test_path_modes(void) {
     TEST_ASSERT_EQUAL(STEPPER_CORNER_CONTINUOUS, gcode_path().corner);
     lines_check_ok("G18 G64 P0.1 G1 X2");
     check_refused("G64 P-1", "P: -1 is invalid (valid is 0 to 1000)");
-    check_refused("G61 P1", "P only valid with one of G2, G3, G4 and G64");
-    check_refused("G64 P1 G4", "P only valid with one of G2, G3, G4 and G64");
-    check_refused("G64 P1 G2 X3 I0.5", "P only valid with one of G2, G3, G4 and G64");
+    check_refused("G61 P1", "Nothing in this line uses P");
+    check_refused("G64 P1 G4", "P has two meanings in this line");
+    check_refused("G64 P1 G2 X3 I0.5", "P has two meanings in this line");
     check_refused("G61 G64", "Two path modes in one line");
     TEST_ASSERT_EQUAL_DOUBLE(0.1, gcode_path().blend_mm);
     TEST_ASSERT_EQUAL(GCODE_PLANE_ZX, gcode_plane());

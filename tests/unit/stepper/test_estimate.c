@@ -133,9 +133,9 @@ static const struct {
     const char *name;
     void (*run)(void);
 } paths[] = {
-    {"long line", long_line}, {"short line", short_line},   {"rapids", rapids_and_dwells},
-    {"zigzag", zigzag},       {"reversals", reversals},     {"polygon", polygon},
-    {"rectangles", rectangles}, {"slots", slots},           {"spiral", spiral},
+    {"long line", long_line},     {"short line", short_line}, {"rapids", rapids_and_dwells},
+    {"zigzag", zigzag},           {"reversals", reversals},   {"polygon", polygon},
+    {"rectangles", rectangles},   {"slots", slots},           {"spiral", spiral},
     {"random walk", random_walk},
 };
 

@@ -1,0 +1,119 @@
+// G-code's sink: the machine. Context: main loop.
+#include "gcode/gcode_sink.h"
+
+#include <string.h>
+
+#include "stepper/rules.h"
+#include "stepper/stepper_check.h"
+#include "stepper/stepper_homing.h"
+#include "stepper/stepper_outputs.h"
+
+static void (*listener)(const char *text, size_t length);
+
+void gcode_set_listener(void (*wanted)(const char *text, size_t length)) {
+    listener = wanted;
+}
+
+static void tell(const char *text, size_t length) {
+    if (listener != NULL) {
+        listener(text, length);
+    }
+}
+
+static err_t place(double target[AXIS_COUNT]) {
+    err_t err = rules_check(RULES_DO_OFFSET);
+    if (err == ERR_OK) {
+        stepper_target(target);
+    }
+    return err;
+}
+
+// The two lists are in the same order.
+static stepper_turn_t turn_of(const gcode_entry_t *entry) {
+    return (stepper_turn_t)entry->spindle.direction;
+}
+
+static err_t check_probe(const gcode_entry_t *entry, const double from[AXIS_COUNT]) {
+    bool invert;
+    if (stepper_probe_config(&invert) == PINS_NONE) {
+        return err_raise(ERR_NO_PROBE_PIN, NULL);
+    }
+    return stepper_check_line(from, &entry->arc.move);
+}
+
+static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
+    err_t err = ERR_OK;
+    switch (entry->kind) {
+    case ENTRY_MOVE:
+        err = stepper_check_line(from, &entry->arc.move);
+        break;
+    case ENTRY_ARC:
+        err = stepper_check_arc(from, &entry->arc);
+        break;
+    case ENTRY_PROBE:
+        err = check_probe(entry, from);
+        break;
+    case ENTRY_SPINDLE:
+        return stepper_spindle_check(turn_of(entry));
+    case ENTRY_COOLANT:
+        return stepper_coolant_check(entry->coolant.flood, entry->coolant.mist);
+    default:
+        return ERR_OK;
+    }
+    memcpy(from, entry->arc.move.target, sizeof entry->arc.move.target);
+    return err;
+}
+
+static err_t push(const gcode_entry_t *entry) {
+    switch (entry->kind) {
+    case ENTRY_MOVE:
+        return stepper_move(&entry->arc.move);
+    case ENTRY_ARC:
+        return stepper_arc(&entry->arc);
+    case ENTRY_PROBE:
+        return stepper_probe(&entry->arc.move, !entry->probe.toward, entry->probe.error_if_none);
+    case ENTRY_DWELL:
+        return stepper_dwell(entry->dwell_ms);
+    case ENTRY_SPINDLE:
+        return stepper_spindle_switch(turn_of(entry), entry->spindle.rpm);
+    case ENTRY_COOLANT:
+        return stepper_coolant_switch(entry->coolant.flood, entry->coolant.mist);
+    case ENTRY_PAUSE:
+        return stepper_pause();
+    case ENTRY_HOME:
+        return stepper_home(entry->axes);
+    case ENTRY_END:
+        break;
+    }
+    return ERR_OK;
+}
+
+static bool ended(err_t *result) {
+    if (stepper_cycle() != STEPPER_CYCLE_NONE) {
+        return false;
+    }
+    *result = stepper_cycle_result();
+    return true;
+}
+
+static gcode_spindle_t spindle(void) {
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    return (gcode_spindle_t)outputs.turn;
+}
+
+// Stops are not counted yet where others can ask for it.
+static uint32_t drops(void) {
+    return 0;
+}
+
+const gcode_sink_t gcode_machine = {
+    .target = stepper_target,
+    .place = place,
+    .check = check,
+    .push = push,
+    .ended = ended,
+    .drops = drops,
+    .spindle = spindle,
+    .tell = tell,
+};
