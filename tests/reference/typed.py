@@ -1,8 +1,7 @@
 """A session at the prompt of the host program, in virtual time, with a world around the pins.
 
-`typed()` types lines, applies edges to inputs at their times and brings back the answer to each
-line, the time at which it was typed and every edge of the outputs. `typed_with_switches()` does the
-same with limit switches that are pressed by the axes themselves.
+`typed()` types lines, applies edges to inputs at their times, lets the axes press their switches
+and brings back the answer to each line, when it was typed and every edge of the outputs.
 """
 
 from __future__ import annotations
@@ -63,6 +62,35 @@ class Event:
 
 
 @dataclass(frozen=True)
+class Switch:
+    """A switch that an axis presses at and beyond a place (mm from where it stood at power-up)."""
+
+    gpio: int
+    axis: str
+    at_mm: float
+    below: bool = True
+    """Pressed at `at_mm` and below; else at and above."""
+    active_high: bool = False
+    bounce_us: int = 0
+
+    def row(self) -> str:
+        at_steps = round(self.at_mm * PINS[self.axis].steps_per_unit)
+        return (
+            f"switch pin=GP{self.gpio} axis={self.axis} {'to' if self.below else 'from'}={at_steps}"
+            f" bounce_us={self.bounce_us}" + (" high" if self.active_high else "")
+        )
+
+
+def machine_rows(switches: list[Switch] | tuple) -> list[str]:
+    """The description of the axes that have switches, and of these."""
+    axes = [PINS[name] for name in dict.fromkeys(switch.axis for switch in switches)]
+    return [
+        *(f"axis {pins.name} step=GP{pins.step_gpio} dir=GP{pins.dir_gpio}" for pins in axes),
+        *(switch.row() for switch in switches),
+    ]
+
+
+@dataclass(frozen=True)
 class Session:
     """What came of the lines."""
 
@@ -116,15 +144,20 @@ def error_of(answer: str) -> str:
 
 
 def typed(
-    folder: Path, *lines: str, events: list[Event] | tuple = (), code: int | None = 0
+    folder: Path,
+    *lines: str,
+    events: list[Event] | tuple = (),
+    switches: list[Switch] | tuple = (),
+    code: int | None = 0,
 ) -> Session:
     """Type the lines one after the other; `events` happen at their times."""
-    trace, inputs = folder / "edges.csv", folder / "events.csv"
+    trace, inputs, machine = folder / "edges.csv", folder / "events.csv", folder / "machine.txt"
+    machine.write_text("".join(row + "\n" for row in machine_rows(switches)))
     rows = sorted(events, key=lambda event: event.ms)
     inputs.write_text("time_ns,gpio,level\n" + "".join(event.row() + "\n" for event in rows))
     text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
     done = subprocess.run(
-        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs],
+        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs, "--machine", machine],
         input=text.encode(),
         capture_output=True,
         timeout=DEADLINE_S,
@@ -157,71 +190,3 @@ def program(folder: Path, text: str, *, keys: str = "", code: int | None = 0) ->
     assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
     _, _, printed = output.partition("\n\n")  # behind the banner
     return Session([printed.rstrip("\n")], [0.0], Edges.read(trace), output)
-
-
-# ---- A world with switches -----------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Switch:
-    """A switch that an axis presses at and beyond a place (mm from where it stood at power-up)."""
-
-    gpio: int
-    axis: str
-    at_mm: float
-    below: bool = True
-    """Pressed at `at_mm` and below; else at and above."""
-    active_high: bool = False
-
-    def pressed(self, steps: np.ndarray) -> np.ndarray:
-        at = round(self.at_mm * PINS[self.axis].steps_per_unit)
-        return steps <= at if self.below else steps >= at
-
-    def level(self, pressed: bool) -> int:
-        return int(pressed == self.active_high)
-
-    def events(self, session: Session) -> list[Event]:
-        """What the switch does in a session, from power-up on."""
-        axis = session.axis(self.axis)
-        states = self.pressed(np.concatenate([[0], axis.steps()]))
-        changes = np.flatnonzero(np.diff(states.astype(int)))
-        first = Event(0.0, self.gpio, self.level(bool(states[0])))
-        # A microsecond behind the step: the place is reached when the motor is there.
-        return [first] + [
-            Event((axis.step_ns[i] + 1000) / 1e6, self.gpio, self.level(bool(states[i + 1])))
-            for i in changes
-        ]
-
-
-def typed_with_switches(
-    folder: Path,
-    *lines: str,
-    switches: list[Switch],
-    events: list[Event] | tuple = (),
-    code: int | None = 0,
-) -> Session:
-    """As typed(), with switches that the motors press.
-
-    The world is found step by step: a session is valid up to the first edge that a switch would
-    have made and the session was not told of. With that edge told it is run again.
-    """
-    told: list[Event] = [
-        Event(0.0, switch.gpio, switch.level(bool(switch.pressed(np.array([0]))[0])))
-        for switch in switches
-    ]
-    for _ in range(200):
-        session = typed(folder, *lines, events=[*told, *events], code=None)
-        wanted = sorted(
-            (event for switch in switches for event in switch.events(session)),
-            key=lambda event: event.ms,
-        )
-        told.sort(key=lambda event: event.ms)
-        if wanted == told:
-            assert code is None or code == 0
-            return session
-        same = 0
-        while same < min(len(wanted), len(told)) and wanted[same] == told[same]:
-            same += 1
-        assert same < len(wanted), "a switch was told of an edge that it does not make"
-        told = wanted[: same + 1]
-    raise AssertionError("the switches did not come to rest")
