@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "gcode/gcode.h"
+#include "stepper/rules.h"
 #include "stepper/stepper.h"
 #include "stepper/stepper_outputs.h"
 
@@ -114,6 +115,12 @@ static void print_outputs(void) {
     }
 }
 
+static void print_queue(const stepper_status_t *status) {
+    basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
+                 (unsigned)(status->blocks - status->blocks_free), (unsigned)status->blocks,
+                 (unsigned)status->executed, (unsigned)status->underruns);
+}
+
 err_t report_status(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
@@ -124,9 +131,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
         return ERR_OK;
     }
     print_motion(&status);
-    basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
-                 (unsigned)(status.blocks - status.blocks_free), (unsigned)status.blocks,
-                 (unsigned)status.executed, (unsigned)status.underruns);
+    print_queue(&status);
     basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
@@ -142,6 +147,56 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     return ERR_OK;
 }
 
+err_t report_buffer(const basic_arg_t *args, size_t count) {
+    (void)args;
+    (void)count;
+    err_t err = rules_check(RULES_DO_SETTING);
+    if (err != ERR_OK) {
+        return err;
+    }
+    stepper_status_t status;
+    stepper_status(&status);
+    print_queue(&status);
+    basic_printf("Speed: %.9g mm/min, steps:", stepper_speed());
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        basic_printf(" %c %ld", STEPPER_AXIS_LETTERS[axis], (long)stepper_position_steps(axis));
+    }
+    basic_printf("\n");
+    return ERR_OK;
+}
+
+err_t report_free_slots(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    (void)args;
+    (void)count;
+    *result = (basic_value_t){.type = BASIC_INTEGER, .integer = stepper_blocks_free()};
+    return ERR_OK;
+}
+
+// A position is a whole number of steps less an offset. Steps of a neat length give a neat number,
+// apart from the arithmetic's own error. Of others the shortest number is told that is within a
+// hundredth of a step: 33.3 and not 33.299983, which no motor can tell apart.
+static double neat(double position, double step) {
+    double fine = round(position * 1e6) / 1e6;
+    if (fabs(position - fine) < 1e-9) {
+        return fine;
+    }
+    double scale = 1.0;
+    for (unsigned decimals = 0; decimals < 6; decimals++) {
+        double shorter = round(position * scale) / scale;
+        if (fabs(position - shorter) <= step / 100.0) {
+            return shorter;
+        }
+        scale *= 10.0;
+    }
+    return fine;
+}
+
+static double peek_position(axis_id_t axis) {
+    stepper_axis_t config;
+    stepper_axis_config(axis, &config);
+    return neat(gcode_work_position(axis), 1.0 / config.steps_per_unit);
+}
+
 err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) {
     (void)count;
     int64_t what = args[0].integer;
@@ -150,7 +205,7 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
         if (!stepper_axis_configured(axis)) {
             return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
         }
-        *result = (basic_value_t){.type = BASIC_FLOAT, .number = gcode_work_position(axis)};
+        *result = (basic_value_t){.type = BASIC_FLOAT, .number = peek_position(axis)};
         return ERR_OK;
     }
     if (what == PEEK_SPEED) {

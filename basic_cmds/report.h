@@ -5,6 +5,10 @@
 #include "basic/basic.h"
 
 err_t report_status(const basic_arg_t *args, size_t count);
+err_t report_buffer(const basic_arg_t *args, size_t count);
+
+// MM.CODE
+err_t report_free_slots(const basic_arg_t *args, size_t count, basic_value_t *result);
 
 // PEEK(STEPPER what); PEEK_CHOICES says what there is, in the order of the handler's cases.
 #define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER|SPEED"

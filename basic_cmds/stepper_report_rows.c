@@ -10,10 +10,13 @@ static const basic_arg_spec_t peek_args[] = {
 };
 
 static const basic_command_t commands[] = {
+    {"STEPPER BUFFER", .run = report_buffer, .help = "Shows what the queue and the motors do"},
     {"STEPPER STATUS", .run = report_status, .help = "Shows state, positions and configuration"},
 };
 
 static const basic_function_t functions[] = {
+    {"MM.CODE", NULL, .evaluate = report_free_slots,
+     .help = "Free slots of the G-code queue; 0 before STEPPER INIT"},
     {"PEEK", "STEPPER", ARGS(peek_args), report_peek, "State of the motion system"},
 };
 

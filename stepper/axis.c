@@ -53,6 +53,8 @@ static err_t check_pins(axis_id_t axis, const uint8_t gpios[PINS_PER_AXIS]) {
     return ERR_OK;
 }
 
+// A free driver must not wake up by itself, so its enable input is pulled to off until somebody
+// takes the pin.
 static void release(axis_id_t axis) {
     if (!axes[axis].configured) {
         return;
@@ -65,7 +67,20 @@ static void release(axis_id_t axis) {
             pins_disclaim(gpios[role]);
         }
     }
+    if (axes[axis].config.enable_gpio != PINS_NONE) {
+        hal_pin_input(axes[axis].config.enable_gpio, HAL_PULL_UP);
+    }
     axes[axis] = (axis_t){0};
+}
+
+void axis_tune(axis_id_t axis, const stepper_axis_t *config) {
+    axis_t *a = &axes[axis];
+    double velocity = fmin(config->max_velocity / SECONDS_PER_MINUTE,
+                           STEPPER_STEP_RATE_MAX_HZ / config->steps_per_unit);
+    a->configured = true;
+    a->config = *config;
+    a->velocity = (float)velocity;
+    a->acceleration = (float)config->max_acceleration;
 }
 
 err_t axis_configure(axis_id_t axis, const stepper_axis_t *config) {
@@ -76,6 +91,7 @@ err_t axis_configure(axis_id_t axis, const stepper_axis_t *config) {
         return err;
     }
     stepper_axis_t wanted = *config; // the caller may hand us our own copy, which release() clears
+    const axis_t before = axes[axis];
     release(axis);
     for (unsigned role = 0; role < PINS_PER_AXIS; role++) {
         if (gpios[role] != PINS_NONE) {
@@ -87,14 +103,10 @@ err_t axis_configure(axis_id_t axis, const stepper_axis_t *config) {
     if (wanted.enable_gpio != PINS_NONE) {
         hal_pin_output(wanted.enable_gpio, true);
     }
-    double velocity = fmin(wanted.max_velocity / SECONDS_PER_MINUTE,
-                           STEPPER_STEP_RATE_MAX_HZ / wanted.steps_per_unit);
-    axes[axis] = (axis_t){
-        .configured = true,
-        .config = wanted,
-        .velocity = (float)velocity,
-        .acceleration = (float)wanted.max_acceleration,
-    };
+    axis_tune(axis, &wanted);
+    axes[axis].limited = before.limited; // the working area is still the same
+    axes[axis].min = before.min;
+    axes[axis].max = before.max;
     return ERR_OK;
 }
 

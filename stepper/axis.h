@@ -21,6 +21,9 @@ extern axis_t axes[AXIS_COUNT];
 // Takes the pins and keeps the configuration, or fails and changes nothing.
 err_t axis_configure(axis_id_t axis, const stepper_axis_t *config);
 
+// Another configuration of an axis that keeps its pins and limits.
+void axis_tune(axis_id_t axis, const stepper_axis_t *config);
+
 // Gives the pins of all axes back and forgets them.
 void axis_release_all(void);
 

@@ -91,6 +91,10 @@ const char *rules_condition_text(rules_condition_t condition) {
     return conditions[condition].text;
 }
 
+err_t rules_condition_error(rules_condition_t condition) {
+    return conditions[condition].error;
+}
+
 const char *rules_operation_text(rules_operation_t operation) {
     return operations[operation].text;
 }

@@ -35,6 +35,7 @@ err_t rules_check(rules_operation_t operation);
 
 // The table itself, for whoever shows it.
 const char *rules_condition_text(rules_condition_t condition);
+err_t rules_condition_error(rules_condition_t condition);
 const char *rules_operation_text(rules_operation_t operation);
 bool rules_forbids(rules_operation_t operation, rules_condition_t condition);
 

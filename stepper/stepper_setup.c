@@ -10,6 +10,7 @@
 #include "stepper/planner.h"
 #include "stepper/rules.h"
 #include "stepper/step_isr.h"
+#include "stepper/stepper_axes.h"
 
 static const char estop_owner[] = "STEPPER E-STOP";
 
@@ -53,6 +54,13 @@ static void reset_motion(void) {
     home_config_reset();
 }
 
+static void start_afresh(void) {
+    machine.position_known = false;
+    machine.idle = STEPPER_IDLE_HOLD;
+    reset_motion();
+    pass_pins_on();
+}
+
 err_t stepper_init(const stepper_init_t *config) {
     err_t err = rules_check(RULES_DO_INIT);
     if (err != ERR_OK) {
@@ -67,10 +75,7 @@ err_t stepper_init(const stepper_init_t *config) {
     }
     machine.config = *config;
     machine.initialized = true;
-    machine.position_known = false;
-    machine.idle = STEPPER_IDLE_HOLD;
-    reset_motion();
-    pass_pins_on();
+    start_afresh();
     return ERR_OK;
 }
 
@@ -99,6 +104,44 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
     return err;
 }
 
+err_t stepper_tune(axis_id_t axis, const stepper_axis_t *config) {
+    err_t err = rules_check(RULES_DO_PINS);
+    if (err == ERR_OK) {
+        err = machine_check_axis(axis);
+    }
+    if (err != ERR_OK) {
+        return err;
+    }
+    bool rescaled = axes[axis].config.steps_per_unit != config->steps_per_unit;
+    axis_tune(axis, config);
+    machine.position_known = machine.position_known && !rescaled;
+    pass_pins_on();
+    planner_set_scale();
+    machine_follow_motors();
+    return ERR_OK;
+}
+
+err_t stepper_enable(uint32_t wanted, bool on) {
+    err_t err = rules_check(on ? RULES_DO_ENABLE : RULES_DO_DISABLE);
+    if (err != ERR_OK) {
+        return err;
+    }
+    uint32_t pins = 0;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        bool asked = ((wanted >> axis) & 1) != 0 && axes[axis].configured;
+        pins |= asked ? pins_mask(axes[axis].config.enable_gpio) : 0;
+    }
+    if (pins == 0) {
+        return err_raise(ERR_NO_ENABLE_PIN, NULL);
+    }
+    if (on) {
+        hal_pins_clear(pins); // active low
+    } else {
+        hal_pins_set(pins);
+    }
+    return ERR_OK;
+}
+
 double stepper_step_rate_limit(axis_id_t axis) {
     return STEPPER_STEP_RATE_MAX_HZ * 60.0 / axes[axis].config.steps_per_unit;
 }
@@ -118,6 +161,15 @@ err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
     axes[axis].max = max_mm;
     axes[axis].limited = true;
     return ERR_OK;
+}
+
+err_t stepper_arc_tolerance(double tolerance_mm) {
+    err_t err = rules_check(RULES_DO_SETTING);
+    if (err == ERR_OK) {
+        machine.config.arc_tolerance_mm = tolerance_mm;
+        geometry_settings.arc_tolerance = (float)tolerance_mm;
+    }
+    return err;
 }
 
 err_t stepper_junction(double deviation_mm) {
@@ -148,6 +200,25 @@ err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
     return ERR_OK;
 }
 
+// Everything at rest and off, all pins but the E-STOP input's given back.
+static void forget_machine(void) {
+    hal_governor_lock();
+    governor_emergency_stop(); // spindle off, drivers off, disarmed
+    hal_governor_unlock();
+    machine_follow_stops();
+    outputs_take_away();
+    axis_release_all();
+}
+
+err_t stepper_reset(void) {
+    err_t err = rules_check(RULES_DO_PINS);
+    if (err == ERR_OK) {
+        forget_machine();
+        start_afresh();
+    }
+    return err;
+}
+
 err_t stepper_close(void) {
     err_t err = rules_check(RULES_DO_STOP);
     if (err != ERR_OK) {
@@ -157,11 +228,7 @@ err_t stepper_close(void) {
     while (governor_working()) {
         hal_idle(hal_time_us() + 1000);
     }
-    hal_governor_lock();
-    governor_emergency_stop(); // spindle off, drivers off, disarmed
-    hal_governor_unlock();
-    outputs_take_away();
-    axis_release_all();
+    forget_machine();
     if (machine.config.estop_gpio != PINS_NONE) {
         hal_pin_release(machine.config.estop_gpio);
         pins_disclaim(machine.config.estop_gpio);

@@ -1,6 +1,6 @@
-// The words of a product as rows: commands, functions and assignments with their arguments. Parsing,
-// range checks, error texts, HELP and the reference page all come from them. Part of basic.h.
-// Context: main loop.
+// The words of a product as rows: commands, functions and assignments with their arguments.
+// Parsing, range checks, error texts, HELP and the reference page all come from them. Part of
+// basic.h. Context: main loop.
 #ifndef BASIC_ROWS_H
 #define BASIC_ROWS_H
 

@@ -36,7 +36,7 @@ def number(text: str) -> float:
         ("STEPPER SCURVE 2", "on: 2 is invalid (valid is 0 to 1)"),
         ("STEPPER ARC LEGACY", "Missing on"),
         ("STEPPER ARC LEGACY 2", "on: 2 is invalid (valid is 0 to 1)"),
-        ("STEPPER ARC 1", "Unknown STEPPER subcommand"),
+        ("STEPPER ARC 0", "tolerance: 0 is invalid (valid is above 0 to 10)"),
         ("STEPPER JERK", "Missing value"),
         ("STEPPER JERK 0", "value: 0 is invalid (valid is 0.001 to 1000000000)"),
         ("STEPPER JERK -1", "value: -1 is invalid (valid is 0.001 to 1000000000)"),

@@ -58,6 +58,7 @@ ALSO_FACES = {
     "firmware/io/io_serial.h",
     "firmware/basic/basic_device.h",
     "stepper/rules.h",
+    "stepper/stepper_axes.h",
     "stepper/stepper_check.h",
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",

@@ -6,6 +6,7 @@
 #include "basic/functions.h"
 #include "basic/statements.h"
 #include "basic_cmds/basic_cmds.h"
+#include "stepper/rules.h"
 
 static const char *const kinds[] = {
     [BASIC_ARG_NUMBER] = "number",    [BASIC_ARG_INTEGER] = "whole number",
@@ -179,6 +180,36 @@ static void print_product_functions(void) {
     }
 }
 
+static void print_refused(rules_operation_t operation) {
+    const char *before = "";
+    for (int i = 0; i < RULES_CONDITIONS; i++) {
+        if (rules_forbids(operation, (rules_condition_t)i)) {
+            printf("%s%s", before, rules_condition_text((rules_condition_t)i));
+            before = "; ";
+        }
+    }
+    printf("%s", *before == '\0' ? "never" : "");
+}
+
+static void print_rules(void) {
+    printf("## What is refused when\n\n"
+           "A refused command changes nothing and does not disturb what is under way. STATUS, PEEK "
+           "and HELP always work.\n\n"
+           "| STEPPER command | is refused |\n| --- | --- |\n");
+    for (int i = 0; i < RULES_OPERATIONS; i++) {
+        printf("| %s | ", rules_operation_text((rules_operation_t)i));
+        print_refused((rules_operation_t)i);
+        printf(" |\n");
+    }
+    printf("\nOf several reasons the one that stands first here is told:\n\n"
+           "| state | error |\n| --- | --- |\n");
+    for (int i = 0; i < RULES_CONDITIONS; i++) {
+        err_raise(rules_condition_error((rules_condition_t)i), "...");
+        printf("| %s | %s |\n", rules_condition_text((rules_condition_t)i), err_message());
+    }
+    printf("\n");
+}
+
 int main(void) {
     printf("# Command reference\n\n"
            "Made from the firmware's own tables; `HELP` at the prompt shows the same. Arguments in "
@@ -193,6 +224,7 @@ int main(void) {
            "work together.\n\n");
     print_commands();
     print_product_functions();
+    print_rules();
     print_statements();
     print_functions();
     return 0;
