@@ -7,7 +7,7 @@
 #include "basic_cmds/i2c.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
-#include "stepper/stepper.h"
+#include "stepper/stepper_safety.h"
 
 #define CTRL_F 6
 #define CTRL_R 18
@@ -35,8 +35,11 @@ void basic_cmds_background(void) {
     setpin_background();
     com_background();
     gcode_lines_background();
-    if (stepper_next_event() == STEPPER_EVENT_ESTOP) {
-        basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
+    stepper_event_t event;
+    while ((event = stepper_next_event()) != STEPPER_EVENT_NONE) {
+        if (event == STEPPER_EVENT_ESTOP) {
+            basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
+        }
     }
 }
 

@@ -28,9 +28,10 @@ static struct {
     governor_pins_t pins;
     volatile bool armed;
     volatile bool stopping;
-    volatile bool holding; // feed hold: brake to a standstill and wait there
-    volatile bool paused;  // the front block holds
-    volatile bool estop_event;
+    volatile bool holding;     // feed hold: brake to a standstill and wait there
+    volatile bool paused;      // the front block holds
+    volatile uint32_t tripped; // inputs that stopped the machine and were not taken yet
+    bool trip_moved;
     volatile uint32_t drops;
     bool idle_off;
     bool drivers_on;
@@ -224,12 +225,33 @@ void governor_fill(uint32_t ticks) {
     }
 }
 
+// ---- Inputs -------------------------------------------------------------------------------------
+
+// Several at once: the drivers stay on only if each of them says so.
+static void trip(uint32_t pins) {
+    bool moved = governor_emergency_stop((pins & ~governor.pins.keep_enabled) == 0);
+    governor.trip_moved |= moved;
+    governor.tripped = governor.tripped | pins;
+    step_isr_rearm();
+}
+
+// The position first: what is written from now on may take the place of what it follows from.
+static void latch(void) {
+    if (!step_isr_latch_collect()) {
+        int32_t steps[AXIS_COUNT];
+        segment_writer_end_steps(steps);
+        step_isr_latch_stand(steps);
+    }
+    governor_stop();
+}
+
 void hal_on_governor(void) {
-    if (step_isr_tripped()) {
-        governor_emergency_stop();
-        step_isr_rearm();
-        governor.estop_event = true;
+    if (step_isr_tripped() != 0) {
+        trip(step_isr_tripped());
         return;
+    }
+    if (step_isr_latch_waits()) {
+        latch();
     }
     governor_fill(SPARE_TICKS);
 }
@@ -280,21 +302,29 @@ void governor_stop(void) {
     }
 }
 
-void governor_emergency_stop(void) {
+bool governor_emergency_stop(bool keep_enabled) {
     int32_t steps[AXIS_COUNT];
-    hal_tick_stop(); // before the position is read: no step may come behind it
-    governor_position(steps);
+    bool moved = step_isr_halt();
+    outputs_off();
+    if (!keep_enabled) {
+        hal_pins_set(governor.pins.enable);
+    }
+    governor_position(steps); // before the ring is emptied
     step_isr_abort();
     jog_drop();
     drop_blocks();
     governor_set_position(steps);
-    outputs_off();
-    if (!governor.pins.estop_keeps_enabled) {
-        hal_pins_set(governor.pins.enable);
-    }
     governor.drivers_on = false;
     governor.armed = false;
     governor.holding = false;
+    return moved;
+}
+
+governor_trip_t governor_take_trip(void) {
+    governor_trip_t taken = {.pins = governor.tripped, .moved = governor.trip_moved};
+    governor.tripped = 0;
+    governor.trip_moved = false;
+    return taken;
 }
 
 void governor_position(int32_t steps[AXIS_COUNT]) {
@@ -348,10 +378,6 @@ uint32_t governor_drops(void) {
     return governor.drops;
 }
 
-bool governor_estop_event(void) {
-    return governor.estop_event;
-}
-
-void governor_clear_estop_event(void) {
-    governor.estop_event = false;
+bool governor_tripped(void) {
+    return governor.tripped != 0;
 }

@@ -10,7 +10,8 @@ typedef struct {
     uint32_t dir[AXIS_COUNT];
     uint32_t dir_inverted; // bit n: axis n has its direction pin low when it counts up
     uint32_t enable;       // active low
-    bool estop_keeps_enabled;
+    // Inputs behind whose trip the drivers stay on.
+    uint32_t keep_enabled;
 } governor_pins_t;
 
 // Everything below is for the main loop with the governor locked, if nothing else is said.
@@ -39,8 +40,18 @@ void governor_hold(bool hold);
 // Contexts: also governor.
 void governor_fill(uint32_t ticks);
 
-// Ends all motion within this call and disarms, see stepper_estop(). Contexts: also governor.
-void governor_emergency_stop(void);
+// Ends all motion within this call, in this order: step pins low, spindle off, drivers off unless
+// they are to stay on, queue dropped, disarmed. True if a motor was in motion: it may have slipped.
+// Contexts: also governor.
+bool governor_emergency_stop(bool keep_enabled);
+
+// What the tick's inputs have done since the last call: the pins that stopped the machine, 0 if none
+// did, and whether a motor was in motion then.
+typedef struct {
+    uint32_t pins;
+    bool moved;
+} governor_trip_t;
+governor_trip_t governor_take_trip(void);
 
 // Where the motors are now.
 void governor_position(int32_t steps[AXIS_COUNT]);
@@ -58,7 +69,6 @@ float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow
-bool governor_estop_event(void);  // a safety input has stopped the machine since it was cleared
-void governor_clear_estop_event(void);
+bool governor_tripped(void);      // governor_take_trip() has something to tell
 
 #endif

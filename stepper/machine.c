@@ -1,9 +1,11 @@
 // The machine's state and what it forbids. Context: main loop.
 #include "stepper/machine.h"
 
+#include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
+#include "stepper/limits.h"
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
 #include "stepper/planner.h"
@@ -31,13 +33,7 @@ void machine_follow_stops(void) {
     if (!machine.initialized) {
         return;
     }
-    // Once, and at once: telling the user may take its time, and a position set until then stays
-    // known.
-    if (governor_estop_event()) {
-        governor_clear_estop_event();
-        machine.position_known = false;
-        machine.estop_untold = true;
-    }
+    alarm_follow();
     uint32_t drops = governor_drops();
     if (drops != machine.drops_seen && !governor_working()) {
         machine.drops_seen = drops;
@@ -50,6 +46,9 @@ bool machine_stopping(void) {
 }
 
 void machine_arm(void) {
+    if (!governor_armed()) {
+        limits_override_pressed();
+    }
     hal_governor_lock();
     governor_arm(machine.idle == STEPPER_IDLE_DISABLE);
     hal_governor_request();
@@ -94,4 +93,11 @@ err_t machine_check_axis(axis_id_t axis) {
 bool machine_estop_asserted(void) {
     uint32_t mask = pins_mask(machine.config.estop_gpio);
     return mask != 0 && (hal_pins_read() & mask) == 0;
+}
+
+void machine_stop_and_wait(void) {
+    stepper_stop();
+    while (governor_working()) {
+        hal_idle(hal_time_us() + 1000);
+    }
 }

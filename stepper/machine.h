@@ -10,7 +10,6 @@ typedef struct {
     bool position_known;
     bool alarm;        // a safety input has stopped the machine, not yet acknowledged
     bool limit_active; // the machine stands on a limit switch and may only leave it
-    bool estop_untold; // a safety input has stopped the machine; stepper_next_event() tells it
     stepper_idle_t idle;
     stepper_init_t config;
     int feed_override, rapid_override; // percent
@@ -41,6 +40,12 @@ bool machine_executing(void);
 void machine_await_end(void);
 
 bool machine_estop_asserted(void);
+
+// Makes the pins of the configuration known to tick and governor. At rest only.
+void machine_pass_pins_on(void);
+
+// Controlled stop, and waits until the machine stands.
+void machine_stop_and_wait(void);
 
 // What must be true before a call may do its work; each raises its error.
 err_t machine_check_initialized(void);

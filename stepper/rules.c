@@ -1,8 +1,10 @@
 // What is refused when. Context: main loop.
 #include "stepper/rules.h"
 
+#include "stepper/alarm.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
+#include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
@@ -63,9 +65,15 @@ static uint32_t find_state(void) {
 }
 
 static err_t refuse(rules_condition_t condition) {
+    char names[ALARM_NAMES_SIZE];
     const char *detail = "";
     if (condition == RULES_CYCLE) {
         detail = stepper_cycle() == STEPPER_CYCLE_PROBING ? "Probing" : "Homing";
+    } else if (condition == RULES_ALARM) {
+        detail = alarm_names(names);
+    } else if (condition == RULES_LIMIT) {
+        limits_names(names, sizeof names, stepper_overridden());
+        detail = names;
     }
     return err_raise(conditions[condition].error, "%s", detail);
 }

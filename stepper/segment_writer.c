@@ -18,6 +18,8 @@
 // last tick before, with the rate of the path, and the rest of the way has the rest of the time.
 #include "stepper/segment_writer.h"
 
+#include "stepper/step_isr.h"
+
 #define HALF_STEP (STEP_ONE / 2)
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis
 // round.
@@ -126,7 +128,7 @@ uint32_t segment_writer_oldest_ticks(void) {
 }
 
 bool segment_writer_has_room(void) {
-    return ring_free(&segments.ring) >= writer.unpublished + ROOM;
+    return ring_free(&segments.ring) >= writer.unpublished + ROOM + step_isr_latch_reserve();
 }
 
 // ---- One segment --------------------------------------------------------------------------------

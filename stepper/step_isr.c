@@ -9,6 +9,8 @@
 // (step_isr_position).
 #include "stepper/step_isr.h"
 
+#include <string.h>
+
 segment_ring_t segments;
 
 #define STEP_COMBINATIONS (1u << AXIS_COUNT)
@@ -18,26 +20,105 @@ segment_ring_t segments;
 // takes more registers than there are. Costs nothing by itself.
 #define HOLD_VALUE(x) __asm volatile("" : "+r"(x) : : "memory")
 
+// No pin has this number, so it reads 0. In `quiet` it makes the next tick look closely as well: an
+// input is suspected, and that it has gone back has to be seen.
+#define SUSPICION (1u << 31)
+
+// Inputs whose level has to be there for some samples in a row to count. Noise on one input may hold
+// up another one that has no filter of its own by `samples`, not longer.
+typedef struct {
+    uint32_t pins;
+    uint32_t suspects; // those that had the level in all samples since the first
+    uint32_t samples;  // how many these are
+} filter_t;
+
 // Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to
 // see a pair that belongs together.
 static struct {
     segment_t *volatile current;           // NULL: none
     volatile uint32_t ticks_left;          // of the current one
     uint32_t raised;                       // step pins that are high
-    uint32_t trip_mask;                    // safety inputs
-    uint32_t trip_idle;                    // their levels while all is well
+    volatile uint32_t watched;             // inputs, and SUSPICION
+    volatile uint32_t quiet;               // their levels while nothing is to be done
     hal_pwm_place_t pwm;                   // of the spindle
     uint32_t step_pins[STEP_COMBINATIONS]; // bit 3: X ... bit 0: A, as the carries are gathered
     volatile uint32_t dry_count;
-    volatile bool tripped;
+    volatile uint32_t tripped; // the inputs that did it, 0: none
+
+    step_isr_inputs_t inputs;
+    filter_t trip, latch;
+
+    uint32_t latch_levels, latch_samples;
+    volatile uint32_t latch_fired;       // the inputs that did it, 0: none
+    segment_t *volatile latched_segment; // where the motors were: NULL, between two motions
+    volatile uint32_t latched_left;
+    bool latch_collected; // the position is in `latched_steps`
+    int32_t latched_steps[AXIS_COUNT];
 } isr;
 
-static void HAL_RAM_FUNC(trip)(void) {
-    isr.tripped = true;
+// ---- Inputs -------------------------------------------------------------------------------------
+
+static void HAL_RAM_FUNC(trip)(uint32_t pins) {
+    isr.tripped = pins;
     isr.raised = 0;
     hal_tick_stop();
     hal_governor_request();
 }
+
+// The pins of the filter that are unusual now and were so in all samples since the first, which is
+// this one if `samples` is 1 afterwards.
+static inline uint32_t look(filter_t *filter, uint32_t unusual) {
+    uint32_t suspects = unusual & filter->suspects;
+    uint32_t samples = filter->samples + 1;
+    if (suspects == 0) {
+        suspects = unusual & filter->pins;
+        samples = 1;
+    }
+    filter->suspects = suspects;
+    filter->samples = samples;
+    return suspects;
+}
+
+static inline void look_for_latch(uint32_t unusual) {
+    uint32_t suspects = look(&isr.latch, unusual);
+    if (suspects == 0) {
+        return;
+    }
+    if (isr.latch.samples == 1) {
+        isr.latched_segment = isr.current;
+        isr.latched_left = isr.ticks_left;
+    }
+    if (isr.latch.samples >= isr.latch_samples) {
+        isr.watched = isr.watched & ~isr.latch.pins;
+        isr.latch.pins = 0;
+        isr.latch.suspects = 0;
+        isr.latch_fired = suspects;
+        hal_governor_request();
+    }
+}
+
+// Some inputs are not as they are while nothing is to be done. True: the machine is stopped.
+static bool HAL_RAM_FUNC(inspect)(uint32_t unusual) __attribute__((noinline));
+
+static bool HAL_RAM_FUNC(inspect)(uint32_t unusual) {
+    uint32_t suspects = look(&isr.trip, unusual);
+    uint32_t sure = isr.trip.samples >= isr.inputs.limit_samples ? isr.inputs.limits : 0;
+    sure |= isr.trip.samples >= isr.inputs.estop_samples ? isr.inputs.estop : 0;
+    sure = (suspects & sure) | (unusual & isr.inputs.immediate);
+    if (sure != 0) {
+        trip(sure);
+        return true;
+    }
+    if (isr.latch.pins != 0) {
+        look_for_latch(unusual);
+        suspects |= isr.latch.suspects;
+    }
+    uint32_t quiet = isr.quiet & ~SUSPICION;
+    isr.quiet = suspects != 0 ? quiet | SUSPICION : quiet;
+    return false;
+}
+
+// ---- The tick -----------------------------------------------------------------------------------
 
 // Gives the finished segment back and takes the next. Returns its ticks, 0 if there is none.
 static uint32_t HAL_RAM_FUNC(next_segment)(void) {
@@ -51,7 +132,7 @@ static uint32_t HAL_RAM_FUNC(next_segment)(void) {
     if (ring_used(&segments.ring) == 0) {
         isr.raised = 0;
         isr.dry_count = isr.dry_count + dry;
-        if (isr.trip_mask == 0) {
+        if (isr.watched == SUSPICION) {
             hal_tick_stop();
         }
         return 0;
@@ -78,8 +159,8 @@ static inline uint32_t advance_axis(segment_axis_t *axis, uint32_t steps) {
 
 void HAL_RAM_FUNC(hal_on_tick)(void) {
     hal_pins_clear(isr.raised);
-    if (((hal_pins_read() ^ isr.trip_idle) & isr.trip_mask) != 0) {
-        trip();
+    uint32_t unusual = (hal_pins_read() ^ isr.quiet) & isr.watched;
+    if (unusual != 0 && inspect(unusual)) {
         return;
     }
     uint32_t left = isr.ticks_left;
@@ -101,15 +182,47 @@ void HAL_RAM_FUNC(hal_on_tick)(void) {
     isr.raised = pins;
 }
 
-void step_isr_setup(uint32_t trip_mask, uint32_t trip_levels) {
-    isr.trip_mask = trip_mask;
-    isr.trip_idle = ~trip_levels & trip_mask;
-    isr.tripped = false;
+void step_isr_setup(void) {
+    isr.inputs = (step_isr_inputs_t){0};
+    isr.trip = isr.latch = (filter_t){0};
+    isr.watched = SUSPICION;
+    isr.quiet = 0;
+    isr.latch_fired = 0;
+    isr.tripped = 0;
     isr.current = NULL;
     isr.ticks_left = 0;
     isr.raised = 0;
     isr.dry_count = 0;
     ring_reset(&segments.ring, SEGMENTS);
+}
+
+// In this order the tick may come between any two of these lines: a pin that stays in goes on being
+// watched, one that is new has its level first, and a count that is under way begins anew. Should a
+// latch leave its note meanwhile, its pins must not come back.
+static void watch(void) {
+    uint32_t latch;
+    do {
+        latch = isr.latch.pins;
+        uint32_t trips = isr.inputs.estop | isr.inputs.limits;
+        uint32_t watched = trips | latch | SUSPICION;
+        isr.watched = isr.watched & watched;
+        isr.trip.pins = trips;
+        RING_BARRIER();
+        isr.quiet = (~isr.inputs.levels & trips) | (~isr.latch_levels & latch);
+        isr.watched = watched;
+        RING_BARRIER();
+        isr.trip.suspects = 0;
+    } while (latch != isr.latch.pins);
+}
+
+void step_isr_watch(const step_isr_inputs_t *inputs) {
+    step_isr_inputs_t with_immediate = *inputs;
+    with_immediate.immediate = inputs->estop_samples <= 1 ? inputs->estop : 0;
+    with_immediate.immediate |= inputs->limit_samples <= 1 ? inputs->limits : 0;
+    isr.watched = isr.watched & (inputs->estop | isr.latch.pins | SUSPICION);
+    RING_BARRIER();
+    isr.inputs = with_immediate;
+    watch();
 }
 
 void step_isr_set_pins(const uint32_t masks[AXIS_COUNT]) {
@@ -126,16 +239,21 @@ void step_isr_set_pwm(hal_pwm_place_t place) {
     isr.pwm = place;
 }
 
-// Motor position at `left` ticks before the end of `segment`: phase and rate at its start follow
-// from those now, and the carries since then from 64-bit arithmetic.
-static void position_in(const segment_t *segment, uint32_t left, int32_t steps[AXIS_COUNT]) {
+// Motor position at `wanted` ticks before the end of `segment`, which the tick has carried out up
+// to `left` before the end: phase and rate at its start follow from those now, and the carries from
+// there on from 64-bit arithmetic.
+static void position_in(const segment_t *segment, uint32_t left, uint32_t wanted,
+                        int32_t steps[AXIS_COUNT]) {
     uint64_t done = segment->ticks - left;
     uint64_t ramps = done * (done - 1) / 2; // 0 + 1 + ... + (done - 1): how often each ramp counts
+    uint64_t until = segment->ticks - wanted;
+    uint64_t ramps_until = until * (until - 1) / 2;
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         const segment_axis_t *now = &segment->axes[axis];
+        uint64_t ramp = (uint64_t)(int32_t)now->ramp;
         uint32_t start_rate = now->rate - now->ramp * (uint32_t)done;
-        uint64_t travel = start_rate * done + (uint64_t)(int32_t)now->ramp * ramps;
-        uint32_t start_phase = now->phase - (uint32_t)travel;
+        uint32_t start_phase = now->phase - (uint32_t)(start_rate * done + ramp * ramps);
+        uint64_t travel = start_rate * until + ramp * ramps_until;
         int32_t carries = (int32_t)((start_phase + travel) >> 32);
         bool negative = (segment->flags >> axis) & 1;
         steps[axis] = now->start_steps + (negative ? -carries : carries);
@@ -150,7 +268,7 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
         RING_BARRIER();
         bool waiting = segment == NULL && ring_used(&segments.ring) > 0;
         if (segment != NULL) {
-            position_in(segment, left, steps);
+            position_in(segment, left, left, steps);
         } else if (waiting) { // the first tick is still to come
             const segment_t *first = &segments.slots[segments.ring.take_slot];
             for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
@@ -164,25 +282,105 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
     }
 }
 
-void step_isr_abort(void) {
+// ---- Latch --------------------------------------------------------------------------------------
+
+void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples) {
+    step_isr_latch_disarm();
+    isr.latch_levels = levels;
+    isr.latch_samples = samples;
+    isr.latch.suspects = 0;
+    isr.latch.pins = pins;
+    watch();
+}
+
+void step_isr_latch_disarm(void) {
+    isr.watched = isr.watched & ~isr.latch.pins;
+    RING_BARRIER();
+    isr.latch.pins = 0;
+    isr.latch_fired = 0;
+    isr.latch_collected = false;
+    watch();
+}
+
+uint32_t step_isr_latch_reserve(void) {
+    if (step_isr_latch_waits()) {
+        return SEGMENTS;
+    }
+    return isr.latch.pins != 0 ? isr.latch_samples + 1 : 0;
+}
+
+bool step_isr_latch_waits(void) {
+    return isr.latch_fired != 0 && !isr.latch_collected;
+}
+
+// As long as it was in the segment of the first sample; the slot is untouched until now
+// (step_isr_latch_reserve). Between two motions: where the next one begins, which may be under way.
+bool step_isr_latch_collect(void) {
+    if (!step_isr_latch_waits()) {
+        return true;
+    }
+    bool known = true;
+    const segment_t *segment = isr.latched_segment;
+    if (segment == NULL) {
+        segment = isr.current;
+        known = segment != NULL;
+        isr.latched_left = known ? segment->ticks : 0;
+    }
+    uint32_t left;
+    while (known) {
+        left = segment == isr.current ? isr.ticks_left : 0;
+        RING_BARRIER();
+        position_in(segment, left, isr.latched_left, isr.latched_steps);
+        RING_BARRIER();
+        if (left == (segment == isr.current ? isr.ticks_left : 0)) {
+            break;
+        }
+    }
+    isr.latch_collected = known;
+    return known;
+}
+
+void step_isr_latch_stand(const int32_t steps[AXIS_COUNT]) {
+    memcpy(isr.latched_steps, steps, sizeof isr.latched_steps);
+    isr.latch_collected = true;
+}
+
+bool step_isr_latched(int32_t steps[AXIS_COUNT], uint32_t *pins) {
+    *pins = isr.latch_fired;
+    memcpy(steps, isr.latched_steps, sizeof isr.latched_steps);
+    return isr.latch_collected;
+}
+
+// ---- Stops --------------------------------------------------------------------------------------
+
+bool step_isr_halt(void) {
     hal_tick_stop();
     hal_pins_clear(isr.raised);
     isr.raised = 0;
+    uint32_t rates = 0;
+    for (axis_id_t axis = 0; isr.current != NULL && axis < AXIS_COUNT; axis++) {
+        rates |= isr.current->axes[axis].rate;
+    }
+    return rates != 0;
+}
+
+void step_isr_abort(void) {
+    step_isr_halt();
     isr.current = NULL;
     isr.ticks_left = 0;
     ring_reset(&segments.ring, SEGMENTS);
 }
 
-bool step_isr_tripped(void) {
+uint32_t step_isr_tripped(void) {
     return isr.tripped;
 }
 
 void step_isr_rearm(void) {
-    isr.tripped = false;
+    isr.tripped = 0;
 }
 
 bool step_isr_watches(void) {
-    return isr.trip_mask != 0;
+    return isr.watched != SUSPICION;
 }
 
 uint32_t step_isr_dry_count(void) {

@@ -1,6 +1,8 @@
 // Arming, stopping, and where the machine stands. Context: main loop.
+#include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/governor.h"
+#include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
@@ -25,6 +27,7 @@ static void drop_queue(void) {
     planner_reset(machine.config.blocks);
     hal_governor_unlock();
     machine_follow_motors();
+    alarm_count_drop();
 }
 
 err_t stepper_clear(void) {
@@ -44,6 +47,7 @@ void stepper_stop(void) {
         drop_queue();
         return;
     }
+    alarm_count_drop();
     hal_governor_lock();
     governor_stop();
     hal_governor_request();
@@ -86,9 +90,10 @@ err_t stepper_estop(void) {
         return err;
     }
     hal_governor_lock();
-    machine.position_known = machine.position_known && !governor_working();
-    governor_emergency_stop();
+    bool moved = governor_emergency_stop(machine.config.estop_keeps_enabled);
     hal_governor_unlock();
+    machine.position_known = machine.position_known && !moved;
+    alarm_count_drop();
     machine_follow_stops();
     return ERR_OK;
 }
@@ -105,6 +110,9 @@ static void stand_at(const int32_t steps[AXIS_COUNT]) {
 
 err_t stepper_set_home(void) {
     err_t err = rules_check(RULES_DO_PLACE);
+    if (err == ERR_OK) {
+        err = alarm_acknowledge();
+    }
     if (err == ERR_OK) {
         stand_at((const int32_t[AXIS_COUNT]){0});
     }
@@ -124,8 +132,11 @@ err_t stepper_set_position(axis_id_t axis, double position) {
     if (!axis_to_steps(axis, position, &steps[axis])) {
         return err_raise(ERR_AXIS_TOO_FAR, "%c", STEPPER_AXIS_LETTERS[axis]);
     }
-    stand_at(steps);
-    return ERR_OK;
+    err = alarm_acknowledge();
+    if (err == ERR_OK) {
+        stand_at(steps);
+    }
+    return err;
 }
 
 int32_t stepper_position_steps(axis_id_t axis) {

@@ -1,6 +1,7 @@
 // Jogging, as far as it may go. Context: main loop.
 #include <math.h>
 
+#include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
@@ -11,6 +12,18 @@
 static err_t check(axis_id_t axis) {
     err_t err = rules_check(RULES_DO_JOG);
     return err == ERR_OK ? machine_check_axis(axis) : err;
+}
+
+// As long as a switch of the axis is pressed that does not trip, the way goes off it. Of two on one
+// pin nobody knows which one it is.
+static err_t check_switches(axis_id_t axis, double distance) {
+    uint32_t pressed = axis < AXIS_A ? (stepper_overridden() >> (2 * axis)) & 3 : 0;
+    uint32_t ahead = distance < 0.0 ? 1 : 2; // min or max
+    if (pressed != ahead) {
+        return ERR_OK;
+    }
+    unsigned which = 2u * axis + (ahead == 2);
+    return err_raise(ERR_LIMIT_ACTIVE, "%s", stepper_switch_name((stepper_switch_t)which));
 }
 
 // Where the jog ends: within the soft limits, but an axis that stands outside them is not pulled
@@ -28,6 +41,9 @@ static int32_t find_target(axis_id_t axis, double from, double distance) {
 
 err_t stepper_jog(axis_id_t axis, double distance, double feed) {
     err_t err = check(axis);
+    if (err == ERR_OK) {
+        err = check_switches(axis, distance);
+    }
     if (err != ERR_OK) {
         return err;
     }

@@ -1,6 +1,7 @@
 // Entries of the motion queue, checked before they are queued. Context: main loop.
 #include <math.h>
 
+#include "stepper/alarm.h"
 #include "stepper/arc.h"
 #include "stepper/axis.h"
 #include "stepper/machine.h"

@@ -6,6 +6,7 @@
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/step_isr.h"
+#include "stepper/stepper_safety.h"
 
 void stepper_status(stepper_status_t *status) {
     machine_follow_stops();
@@ -68,17 +69,8 @@ uint32_t stepper_blocks_free(void) {
 
 uint32_t stepper_status_bits(void) {
     machine_follow_stops();
-    uint32_t bits = 0;
+    uint32_t bits = stepper_pressed(); // bits 0 to 5
     bits |= machine_estop_asserted() ? STEPPER_STATUS_ESTOP : 0;
     bits |= machine.initialized && machine.position_known ? STEPPER_STATUS_POSITION_KNOWN : 0;
     return bits;
-}
-
-stepper_event_t stepper_next_event(void) {
-    if (governor_estop_event()) { // asked every few statements of a program
-        machine_follow_stops();
-    }
-    bool estop = machine.estop_untold;
-    machine.estop_untold = false;
-    return estop ? STEPPER_EVENT_ESTOP : STEPPER_EVENT_NONE;
 }

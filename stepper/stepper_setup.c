@@ -1,9 +1,11 @@
 // Configuration: INIT, axes, limits, spindle, and giving it all back. Context: main loop.
 #include "hal/hal_io.h"
+#include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/home_config.h"
+#include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
@@ -14,11 +16,16 @@
 
 static const char estop_owner[] = "STEPPER E-STOP";
 
-static void pass_pins_on(void) {
+void machine_pass_pins_on(void) {
     governor_pins_t pins = {
         .enable = axis_enable_mask(),
-        .estop_keeps_enabled = machine.config.estop_keeps_enabled,
     };
+    stepper_safety_t safety;
+    stepper_safety(&safety);
+    pins.keep_enabled = safety.keep_enabled ? limits_pins(limits_assigned()) : 0;
+    if (machine.config.estop_keeps_enabled) {
+        pins.keep_enabled |= pins_mask(machine.config.estop_gpio);
+    }
     uint32_t steps[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         steps[axis] = axis_step_mask(axis);
@@ -37,12 +44,14 @@ static void reset_motion(void) {
     const int32_t zero[AXIS_COUNT] = {0};
     hal_tick_stop();
     hal_governor_lock();
-    step_isr_setup(pins_mask(machine.config.estop_gpio), 0);
+    step_isr_setup();
     step_isr_set_pwm(hal_pwm_place(HAL_PWM_SLICES));
     governor_reset(zero);
     planner_reset(machine.config.blocks);
     hal_governor_unlock();
     machine.drops_seen = governor_drops();
+    limits_reset();
+    alarm_reset();
     planner_set_scale();
     moves_set_position(zero);
     geometry_settings = (geometry_settings_t){
@@ -58,7 +67,7 @@ static void start_afresh(void) {
     machine.position_known = false;
     machine.idle = STEPPER_IDLE_HOLD;
     reset_motion();
-    pass_pins_on();
+    machine_pass_pins_on();
 }
 
 err_t stepper_init(const stepper_init_t *config) {
@@ -94,7 +103,7 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
     err = axis_configure(axis, config);
     if (err == ERR_OK) {
         machine.position_known = machine.position_known && !rescaled;
-        pass_pins_on();
+        machine_pass_pins_on();
         planner_set_scale();
         machine_follow_motors();
     }
@@ -115,7 +124,7 @@ err_t stepper_tune(axis_id_t axis, const stepper_axis_t *config) {
     bool rescaled = axes[axis].config.steps_per_unit != config->steps_per_unit;
     axis_tune(axis, config);
     machine.position_known = machine.position_known && !rescaled;
-    pass_pins_on();
+    machine_pass_pins_on();
     planner_set_scale();
     machine_follow_motors();
     return ERR_OK;
@@ -203,11 +212,12 @@ err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
 // Everything at rest and off, all pins but the E-STOP input's given back.
 static void forget_machine(void) {
     hal_governor_lock();
-    governor_emergency_stop(); // spindle off, drivers off, disarmed
+    governor_emergency_stop(false); // spindle off, drivers off, disarmed
     hal_governor_unlock();
     machine_follow_stops();
     outputs_take_away();
     axis_release_all();
+    limits_release();
 }
 
 err_t stepper_reset(void) {
@@ -224,16 +234,14 @@ err_t stepper_close(void) {
     if (err != ERR_OK) {
         return err;
     }
-    stepper_stop();
-    while (governor_working()) {
-        hal_idle(hal_time_us() + 1000);
-    }
+    machine_stop_and_wait();
     forget_machine();
     if (machine.config.estop_gpio != PINS_NONE) {
         hal_pin_release(machine.config.estop_gpio);
         pins_disclaim(machine.config.estop_gpio);
         machine.config.estop_gpio = PINS_NONE;
     }
+    alarm_reset();
     machine.initialized = false;
     return ERR_OK;
 }

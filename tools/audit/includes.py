@@ -63,6 +63,7 @@ ALSO_FACES = {
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
     "stepper/stepper_outputs.h",
+    "stepper/stepper_safety.h",
 }
 
 # Includes that lead out of the table: the inline half of hal.h, and what the build generates.

@@ -36,7 +36,7 @@ static void start_at(const int32_t steps[AXIS_COUNT], on_step_t on_step) {
         hal_pin_output(DIR_GPIO + axis, true);
     }
     step_isr_abort();
-    step_isr_setup(0, 0);
+    step_isr_setup();
     step_isr_set_pins(step_masks);
     segment_writer_set_dir_pins(dir_masks, 0);
     segment_writer_reset(steps);

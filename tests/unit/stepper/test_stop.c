@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "host_clock.h"
 #include "host_pads.h"
+#include "stepper/stepper_safety.h"
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -141,7 +142,7 @@ static void check_estop_pin(bool keeps_enabled) {
     TEST_ASSERT_LESS_OR_EQUAL_UINT64(pressed_ns, bench.last_step_ns); // no step after the next tick
     bench_check_positions();
     const stepper_move_t move = {.target = {1, 0, 0, 0}, .feed = 600, .rapid = false};
-    TEST_ASSERT_EQUAL(ERR_POSITION_UNKNOWN, stepper_move(&move)); // before anybody asked
+    TEST_ASSERT_EQUAL(ERR_ALARM, stepper_move(&move)); // before anybody asked
     TEST_ASSERT_EQUAL(STEPPER_EVENT_ESTOP, stepper_next_event());
     TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());
     TEST_ASSERT_EQUAL(STEPPER_STATUS_ESTOP, stepper_status_bits());
@@ -182,6 +183,9 @@ static void test_estop_pin_is_watched_at_rest(void) {
 // The user may say where the machine stands before the language has told of the trip.
 static void test_a_position_set_after_a_trip_stays_known(void) {
     bench_start();
+    press_estop(false);
+    bench_move(5, 0, 0, 0, 600);
+    bench_wait_us(100000);
     press_estop(true);
     bench_wait_us(20);
     press_estop(false);

@@ -5,6 +5,7 @@
 
 #include "bench.h"
 #include "host_pads.h"
+#include "stepper/stepper_safety.h"
 
 static uint8_t page[HAL_STORAGE_PAGE];
 static uint32_t place; // of the page written last

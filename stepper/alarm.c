@@ -1,0 +1,133 @@
+// What the safety inputs have done, until it is acknowledged and told; and the other events.
+// Context: main loop.
+#include "stepper/alarm.h"
+
+#include <string.h>
+
+#include "stepper/governor.h"
+#include "stepper/limits.h"
+#include "stepper/machine.h"
+#include "stepper/rules.h"
+
+static struct {
+    stepper_alarm_t alarm;
+    stepper_trip_t trip; // the last one
+    uint16_t events;     // bit of each that was not taken
+    uint32_t drops;
+    uint32_t ends_seen; // of the motions, for STEPPER_EVENT_IDLE
+} state;
+
+// Grows with each queue entry that is carried out, and when entries are dropped.
+static uint32_t ends(void) {
+    return governor_executed() + governor_drops();
+}
+
+void alarm_reset(void) {
+    uint32_t drops = state.drops + 1;
+    memset(&state, 0, sizeof state);
+    state.drops = drops;
+    machine.alarm = false;
+    state.ends_seen = ends();
+}
+
+// Once, and at once: telling the user may take its time, and a position set until then stays known.
+static void follow_trip(void) {
+    hal_governor_lock();
+    governor_trip_t trip = governor_take_trip();
+    hal_governor_unlock();
+    state.trip.switches = limits_switches(trip.pins);
+    state.trip.estop = (trip.pins & pins_mask(machine.config.estop_gpio)) != 0;
+    state.trip.position_lost = machine.position_known && trip.moved;
+    machine.position_known = machine.position_known && !trip.moved;
+    if (state.trip.estop) {
+        state.alarm = STEPPER_ALARM_ESTOP;
+        stepper_raise_event(STEPPER_EVENT_ESTOP);
+    } else {
+        state.alarm = state.alarm == STEPPER_ALARM_NONE ? STEPPER_ALARM_LIMIT : state.alarm;
+        stepper_raise_event(STEPPER_EVENT_LIMIT);
+    }
+    machine.alarm = true;
+    state.ends_seen = ends();
+    state.drops++;
+}
+
+void alarm_follow(void) {
+    if (governor_tripped()) {
+        follow_trip();
+    }
+    limits_follow();
+}
+
+// ---- The alarm ----------------------------------------------------------------------------------
+
+const char *alarm_names(char names[ALARM_NAMES_SIZE]) {
+    if (state.alarm == STEPPER_ALARM_ESTOP) {
+        return "E-STOP";
+    }
+    static const char before[] = "Limit switch ";
+    memcpy(names, before, sizeof before);
+    limits_names(names + sizeof before - 1, ALARM_NAMES_SIZE - sizeof before, state.trip.switches);
+    return names;
+}
+
+err_t alarm_acknowledge(void) {
+    if (machine_estop_asserted()) {
+        return err_raise(ERR_ESTOP_ACTIVE, NULL);
+    }
+    state.alarm = STEPPER_ALARM_NONE;
+    machine.alarm = false;
+    return ERR_OK;
+}
+
+stepper_alarm_t stepper_alarm(void) {
+    alarm_follow();
+    return state.alarm;
+}
+
+void stepper_last_trip(stepper_trip_t *trip) {
+    *trip = state.trip;
+}
+
+err_t stepper_recover(void) {
+    err_t err = rules_check(RULES_DO_RECOVER);
+    if (err != ERR_OK) {
+        return err;
+    }
+    machine_stop_and_wait();
+    hal_governor_lock();
+    bool moved = governor_emergency_stop(true);
+    hal_governor_unlock();
+    machine.position_known = machine.position_known && !moved;
+    machine_follow_stops();
+    alarm_count_drop();
+    return alarm_acknowledge();
+}
+
+// ---- Events -------------------------------------------------------------------------------------
+
+void stepper_raise_event(stepper_event_t event) {
+    state.events = (uint16_t)(state.events | 1u << event);
+}
+
+stepper_event_t stepper_next_event(void) {
+    alarm_follow();
+    if (!governor_working() && ends() != state.ends_seen) {
+        state.ends_seen = ends();
+        stepper_raise_event(STEPPER_EVENT_IDLE);
+    }
+    if (state.events == 0) {
+        return STEPPER_EVENT_NONE;
+    }
+    stepper_event_t event = (stepper_event_t)__builtin_ctz(state.events);
+    state.events = (uint16_t)(state.events & (state.events - 1));
+    return event;
+}
+
+void alarm_count_drop(void) {
+    state.drops++;
+}
+
+uint32_t stepper_drops(void) {
+    alarm_follow();
+    return state.drops;
+}
