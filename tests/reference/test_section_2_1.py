@@ -16,6 +16,7 @@ MOVE = "STEPPER GC G1 X50 F3000"
     "command",
     [
         "AXIS X,GP2,GP3",
+        "TUNE X,,80",
         "LIMITS X,0,100",
         "ESTOP",
         "GC G1 X10 F500",

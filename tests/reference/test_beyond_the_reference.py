@@ -1,0 +1,85 @@
+"""What the PicoMite firmware has and its reference does not tell."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from motion_checks import hardest_acceleration
+from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, WAIT, typed
+
+MOVE = "STEPPER GC G1 X50 F3000"
+
+
+def test_enable(tmp_path: Path) -> None:
+    """One axis or all, on or off; on without a value."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        "STEPPER ENABLE X",
+        "STEPPER ENABLE ALL",
+        "STEPPER ENABLE Y,0",
+        "STEPPER ENABLE ALL,0",
+    )
+    assert session.errors() == []
+    times = session.typed_ms[-4:]
+    shown = [(session.level_at(ENABLE_X, ms), session.level_at(ENABLE_Y, ms)) for ms in times]
+    assert shown == [(0, 1), (0, 0), (0, 1), (1, 1)]
+
+
+def test_invert(tmp_path: Path) -> None:
+    """As TUNE with dir_invert."""
+    session = typed(tmp_path, *READY, "STEPPER INVERT X,1", "STEPPER GC G1 X1 F600", WAIT)
+    assert session.errors() == []
+    assert session.end("X") == -1
+
+
+def test_arc(tmp_path: Path) -> None:
+    """Shows and sets the tolerance of arcs."""
+    session = typed(tmp_path, *SET_UP, "STEPPER ARC", "STEPPER ARC 0.1", "STEPPER STATUS")
+    assert session.errors() == []
+    assert "0.05" in session.answers[-3]
+    assert "arc tolerance: 0.1 mm" in session.last
+
+
+def test_buffer(tmp_path: Path) -> None:
+    """Diagnostic lines of the queue."""
+    session = typed(tmp_path, *SET_UP, "STEPPER POSITION HOME", MOVE, "STEPPER BUFFER")
+    assert session.errors() == []
+    assert "1" in session.last
+    assert "64" in session.last
+
+
+def test_reset(tmp_path: Path) -> None:
+    """At rest: axes, spindle and switches are forgotten, their pins free; still initialised."""
+    session = typed(
+        tmp_path,
+        *READY,
+        MOVE,
+        "STEPPER RESET",
+        WAIT,
+        "STEPPER RESET",
+        "PRINT PEEK(STEPPER ACTIVE)",
+        "SETPIN GP2,DIN",
+        "SETPIN GP2,OFF",
+        *SET_UP[1:],
+    )
+    assert len(session.errors()) == 1
+    assert session.end("X") == 50
+    assert session.number(-7) == 0
+    assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
+
+
+def test_mm_code(tmp_path: Path) -> None:
+    """Free slots, as PEEK(STEPPER BUFFER)."""
+    session = typed(tmp_path, *SET_UP, "STEPPER POSITION HOME", MOVE, "PRINT MM.CODE")
+    assert session.number() == 63
+
+
+@pytest.mark.parametrize("form", ["STEPPER GC {}", 'STEPPER GS "{}"', "STEPPER GCODE {}"])
+@pytest.mark.parametrize("code", ["G61", "G64"])
+def test_path_modes(form: str, code: str, tmp_path: Path) -> None:
+    """Exact and continuous."""
+    session = typed(tmp_path, *READY, form.format(code), "STEPPER STATUS")
+    assert session.errors() == []
+    assert f"Path mode: {code}" in session.last
