@@ -248,7 +248,14 @@ static err_t check_blend(line_t *line) {
     return ERR_OK;
 }
 
-static err_t check_motion(const line_t *line) {
+static err_t check_cycle(line_t *line, const gcode_state_t *before) {
+    if (line->modal.plane != GCODE_PLANE_XY) {
+        return needs("Canned cycles need G17, the XY plane");
+    }
+    return line_has(line, WORD_P) ? check_dwell(line, before) : ERR_OK;
+}
+
+static err_t check_motion(line_t *line, const gcode_state_t *before) {
     const modal_t *modal = &line->modal;
     if (!line->moves) {
         bool asked =
@@ -259,8 +266,9 @@ static err_t check_motion(const line_t *line) {
         !is_whole(line->value[WORD_P], 1.0, STEPPER_ARC_TURNS_MAX)) {
         return p_range(line->value[WORD_P], "whole turns, 1 to ", STEPPER_ARC_TURNS_MAX);
     }
-    if (line_is_cycle(line) && modal->plane != GCODE_PLANE_XY) {
-        return needs("Canned cycles need G17, the XY plane");
+    err_t err = line_is_cycle(line) ? check_cycle(line, before) : ERR_OK;
+    if (err != ERR_OK) {
+        return err;
     }
     if (modal->motion == MOTION_RAPID || modal->motion == MOTION_NONE) {
         return ERR_OK;
@@ -339,5 +347,5 @@ err_t gcode_check(line_t *line, const gcode_state_t *before) {
     if (err == ERR_OK) {
         err = check_blend(line);
     }
-    return err == ERR_OK ? check_motion(line) : err;
+    return err == ERR_OK ? check_motion(line, before) : err;
 }

@@ -56,7 +56,7 @@ static const code_t g_codes[] = {
     {611, GROUP_PATH, STEPPER_CORNER_STOP},
     {640, GROUP_PATH, STEPPER_CORNER_CONTINUOUS},
     {730, GROUP_MOTION, MOTION_CYCLE_CHIPS},
-    {800, GROUP_MOTION, MOTION_NONE},
+    {800, GROUP_CYCLE_END, MOTION_NONE},
     {810, GROUP_MOTION, MOTION_CYCLE_DRILL},
     {820, GROUP_MOTION, MOTION_CYCLE_DWELL},
     {830, GROUP_MOTION, MOTION_CYCLE_PECK},
@@ -89,6 +89,7 @@ static const code_t m_codes[] = {
 
 static const char *const group_names[GROUPS] = {
     [GROUP_MOTION] = "motion modes",
+    [GROUP_CYCLE_END] = "G80",
     [GROUP_ONCE] = "codes out of G4, G10, G28, G30, G53 and G92",
     [GROUP_PLANE] = "planes",
     [GROUP_DISTANCE] = "distance modes",
@@ -141,6 +142,11 @@ static err_t apply(line_t *line, const code_t *code) {
     switch ((group_t)code->group) {
     case GROUP_MOTION:
         modal->motion = value;
+        break;
+    case GROUP_CYCLE_END: // beside another motion mode it says nothing more
+        if (!line_has_group(line, GROUP_MOTION)) {
+            modal->motion = value;
+        }
         break;
     case GROUP_ONCE:
         line->once = value;

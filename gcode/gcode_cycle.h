@@ -2,7 +2,7 @@
 // main loop.
 //
 // gcode_cycle_begin() gets a line whose words have passed the checks of gcode_check.c: the motion is
-// a cycle, all lengths are in mm, at least one axis word is there, plane and feed mode fit. It checks
+// a cycle, all lengths are in mm and P in ms, at least one axis word is there, plane and feed mode fit. It checks
 // what only the cycle knows (words that are missing or out of range, R below Z), and fills in
 // `cycle`. Then gcode_cycle_next() yields one entry after the other until it returns false. First
 // all of them are checked, with a copy of `cycle` (soft limits, reach); if all are right a second
@@ -17,11 +17,10 @@
 typedef struct {
     gcode_cycle_words_t words; // as they will stay in force: kept if the line is accepted
     motion_t motion;
-    double feed;             // mm/min
-    stepper_corner_t corner; // of the moves in the plane
-    double blend_mm;
+    double feed;                // mm/min
     double at[AXIS_COUNT];      // where the last entry ended
-    double step[AXIS_COUNT];    // what X, Y and A advance with each repetition (G91, L)
+    bool relative;              // G91
+    double step[AXIS_Z];        // what X and Y advance with each repetition, or where they go
     double hole_z, r_z, back_z; // machine coordinates
     double depth;               // reached so far in this hole, machine coordinate
     uint32_t repeats;           // holes left

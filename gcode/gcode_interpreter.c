@@ -7,9 +7,9 @@
 
 // Groups that change nothing but modes that need no summing up.
 #define PLAIN_GROUPS                                                                               \
-    (1u << GROUP_MOTION | 1u << GROUP_PLANE | 1u << GROUP_DISTANCE | 1u << GROUP_CENTRE |          \
-     1u << GROUP_FEED_MODE | 1u << GROUP_UNITS | 1u << GROUP_COMPENSATION | 1u << GROUP_RETRACT |  \
-     1u << GROUP_PATH | 1u << GROUP_OVERRIDES)
+    (1u << GROUP_MOTION | 1u << GROUP_CYCLE_END | 1u << GROUP_PLANE | 1u << GROUP_DISTANCE |       \
+     1u << GROUP_CENTRE | 1u << GROUP_FEED_MODE | 1u << GROUP_UNITS | 1u << GROUP_COMPENSATION |   \
+     1u << GROUP_RETRACT | 1u << GROUP_PATH | 1u << GROUP_OVERRIDES)
 
 void gcode_interpreter_start(gcode_interpreter_t *interpreter, const gcode_sink_t *sink) {
     *interpreter = (gcode_interpreter_t){.sink = sink};

@@ -10,7 +10,8 @@
 // Modal groups of RS274/NGC, G and M: of each a line may have one word.
 typedef enum {
     GROUP_MOTION,
-    GROUP_ONCE, // non-modal: G4, G10, G28, G30, G53, G92 and their like
+    GROUP_CYCLE_END, // G80; the first lines of many programs have it beside G0
+    GROUP_ONCE,      // non-modal: G4, G10, G28, G30, G53, G92 and their like
     GROUP_PLANE,
     GROUP_DISTANCE,
     GROUP_CENTRE,

@@ -48,3 +48,13 @@ err_t err_code(void) {
 const char *err_message(void) {
     return err_text_now;
 }
+
+void err_keep(err_kept_t *kept) {
+    kept->code = err_now;
+    memcpy(kept->text, err_text_now, sizeof kept->text);
+}
+
+void err_put_back(const err_kept_t *kept) {
+    err_now = kept->code;
+    memcpy(err_text_now, kept->text, sizeof err_text_now);
+}

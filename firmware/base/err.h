@@ -27,4 +27,14 @@ err_t err_code(void);
 // The text of the error raised last, complete with its detail. Valid until the next err_raise().
 const char *err_message(void);
 
+// The current error as a whole. Work in the background that may raise errors of its own keeps what
+// the statement in the foreground has raised, which may not have been told yet, and puts it back.
+typedef struct {
+    err_t code;
+    char text[ERR_MESSAGE_SIZE];
+} err_kept_t;
+
+void err_keep(err_kept_t *kept);
+void err_put_back(const err_kept_t *kept);
+
 #endif

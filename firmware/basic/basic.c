@@ -55,6 +55,10 @@ bool basic_wait(uint64_t until_us) {
     return !console_break_pending();
 }
 
+void basic_wake(void) {
+    console_wake();
+}
+
 static void nothing(void) {}
 
 static void show_banner(void) {

@@ -123,4 +123,7 @@ bool basic_break_pending(void);
 // if the user pressed Ctrl-C and the statement should end.
 bool basic_wait(uint64_t until_us);
 
+// For the background hook: there is more to do, so nothing is to sleep before it is called again.
+void basic_wake(void);
+
 #endif

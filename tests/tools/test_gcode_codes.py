@@ -74,15 +74,14 @@ def test_switches() -> None:
         "spindle",
         "move",
         "coolant",
-        "pause",
-        "pause",
         "spindle",
+        "pause",
+        "pause",
         "coolant",
     ]
     assert last("S500 M4").speed_rpm == 500
     assert not last("S500 M4").clockwise
     assert last("M7", "M8").coolant == "flood mist"
-    assert last("M7 M8").coolant == "flood mist"
     assert last("M3 S100", "G1 X1 S200 F100").speed_rpm == 200
     assert last("M3 S100", "M5", "G1 X1 S200 F100").speed_rpm == 0
 

@@ -80,12 +80,14 @@ class Line:
 
     def _switch(self) -> None:
         if "tool changes" in self.codes:
+            if self.state.spindle != "M5":
+                self._spindle("M5")
             self._add("pause")
         if "spindle switches" in self.codes:
             self._spindle(self.codes["spindle switches"])
         coolant = self.codes.get("coolant switches")
         if coolant is not None:
-            names = {"M7": {"mist"}, "M8": {"flood"}, "M7M8": {"mist", "flood"}, "M9": set()}
+            names = {"M7": {"mist"}, "M8": {"flood"}, "M9": set()}
             added = frozenset(names[coolant])
             self._set_coolant(self.state.coolant | added if added else frozenset())
 
@@ -212,8 +214,8 @@ class Line:
     def _move(self) -> None:
         state = self.state
         code = self.codes.get("motion modes")
-        if code is not None:
-            state.motion = None if code == "G80" else code
+        if code is not None or "ends of cycles" in self.codes:
+            state.motion = code
         if state.motion not in CYCLES:
             state.series = None
         curved = any(letter in self.values for letter in "IJKR")
@@ -289,12 +291,14 @@ class Line:
 
     def _cycle(self, code: str) -> None:
         drill = self._drill(code)
+        mode, self.state.path_mode = self.state.path_mode, PathMode("G61")
         for step in steps_of(drill):
             if step.kind == "dwell":
                 self._add("dwell", dwell_s=step.seconds)
             else:
                 feed = self.state.feed_per_min if step.kind == "feed" else None
                 self._line_to(step.target, feed)
+        self.state.path_mode = mode
 
     def _words_of_cycle(self, series: Series, across: str) -> dict[str, float]:
         """Return R, depth, Q and P, those of the lines before where they are left out."""

@@ -8,7 +8,7 @@ _WORD = re.compile(r"([A-Z])([+-]?(?:\d+\.?\d*|\.\d+))")
 _COMMENT = re.compile(r"\([^()]*\)")
 
 MOTIONS = ("G0", "G1", "G2", "G3", "G38.2", "G38.3", "G38.4", "G38.5")
-CYCLES = ("G73", "G80", "G81", "G82", "G83")
+CYCLES = ("G73", "G81", "G82", "G83")
 WORK_SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 OFFSETS = ("G10", "G92", "G92.1", "G92.2", "G92.3")
 ONCE = ("G4", "G28", "G28.1", "G28.2", "G30", "G30.1", "G53", *OFFSETS)
@@ -16,6 +16,7 @@ ONCE = ("G4", "G28", "G28.1", "G28.2", "G30", "G30.1", "G53", *OFFSETS)
 
 GROUPS: dict[str, tuple[str, ...]] = {
     "motion modes": MOTIONS + CYCLES,
+    "ends of cycles": ("G80",),
     "planes": ("G17", "G18", "G19"),
     "units": ("G20", "G21"),
     "cutter compensations": ("G40",),
@@ -30,10 +31,11 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "ends": ("M0", "M1", "M2", "M30"),
     "spindle switches": ("M3", "M4", "M5"),
     "tool changes": ("M6",),
-    "override switches": ("M48", "M49"),
+    "override switches": ("M48",),
     "coolant switches": ("M7", "M8", "M9"),
 }
-"""The modal groups: of each a line may have one code, but M7 and M8 together."""
+"""The modal groups: of each a line may have one code. G80 may stand beside
+another motion mode, as in the first lines of many programs."""
 
 GROUP_OF = {code: group for group, codes in GROUPS.items() for code in codes}
 
@@ -89,7 +91,7 @@ def sort_words(words: list[tuple[str, float]]) -> tuple[dict[str, str], dict[str
             if group is None:
                 raise ValueError(f"{code} is not supported")
             if group in codes:
-                code = _both(codes[group], code, group)
+                raise ValueError(f"two {group} in one line")
             codes[group] = code
         elif letter not in "XYZAFIJKRPQLSTHN":
             raise ValueError(f"word {letter} is not supported")
@@ -99,10 +101,3 @@ def sort_words(words: list[tuple[str, float]]) -> tuple[dict[str, str], dict[str
             values[letter] = value
     values.pop("N", None)
     return codes, values
-
-
-def _both(first: str, second: str, group: str) -> str:
-    """Flood and mist may be switched on together."""
-    if {first, second} != {"M7", "M8"}:
-        raise ValueError(f"two {group} in one line")
-    return "M7M8"

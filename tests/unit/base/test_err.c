@@ -46,6 +46,16 @@ static void test_long_message_is_cut(void) {
     TEST_ASSERT_EQUAL_STRING_LEN("Unknown xxxx", err_message(), 12);
 }
 
+static void test_what_was_kept_comes_back_whole(void) {
+    err_kept_t kept;
+    err_raise(ERR_PIN_INVALID, "GP%u", 23u);
+    err_keep(&kept);
+    err_raise(ERR_ARGUMENT, "%s", "something of the background");
+    err_put_back(&kept);
+    TEST_ASSERT_EQUAL(ERR_PIN_INVALID, err_code());
+    TEST_ASSERT_EQUAL_STRING("Invalid pin GP23", err_message());
+}
+
 static void test_every_error_has_a_text(void) {
     for (int code = ERR_OK + 1; code < ERR_COUNT; code++) {
         err_raise((err_t)code, "%s", "detail");
@@ -62,6 +72,7 @@ int main(void) {
     RUN_TEST(test_detail_may_quote_the_current_message);
     RUN_TEST(test_percent_in_the_detail_stays);
     RUN_TEST(test_long_message_is_cut);
+    RUN_TEST(test_what_was_kept_comes_back_whole);
     RUN_TEST(test_every_error_has_a_text);
     return UNITY_END();
 }
