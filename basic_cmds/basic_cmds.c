@@ -5,6 +5,7 @@
 #include "basic_cmds/control.h"
 #include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/i2c.h"
+#include "basic_cmds/safety.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
 #include "stepper/stepper_safety.h"
@@ -17,6 +18,7 @@ const basic_rows_t *const basic_cmds_tables[] = {
     &stepper_control_rows,
     &stepper_gcode_rows,
     &stepper_report_rows,
+    &stepper_safety_rows,
     &pin_rows,
     &bus_rows,
 };
@@ -29,18 +31,14 @@ void basic_cmds_clear(void) {
     com_clear();
     i2c_clear();
     setpin_clear();
+    safety_clear();
 }
 
 void basic_cmds_background(void) {
     setpin_background();
     com_background();
     gcode_lines_background();
-    stepper_event_t event;
-    while ((event = stepper_next_event()) != STEPPER_EVENT_NONE) {
-        if (event == STEPPER_EVENT_ESTOP) {
-            basic_notice("Hardware E-STOP trip - emergency stop, position unknown");
-        }
-    }
+    safety_background();
 }
 
 void basic_cmds_break(void) {

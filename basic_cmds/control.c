@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
@@ -21,6 +22,7 @@ err_t control_run(const basic_arg_t *args, size_t count) {
     err_t err = stepper_run(idle);
     if (err == ERR_OK) {
         basic_printf(status.armed ? "Already armed\n" : "Stepper armed\n");
+        safety_warn();
     }
     return err;
 }

@@ -9,7 +9,8 @@ enum {
     EVENTS_PINS_COUNT = 10,
     EVENTS_COM = EVENTS_PINS + EVENTS_PINS_COUNT, // a serial port has received something
     EVENTS_COM_COUNT = 2,
-    EVENTS_END = EVENTS_COM + EVENTS_COM_COUNT
+    EVENTS_STEPPER = EVENTS_COM + EVENTS_COM_COUNT, // ON STEPPER EVENT
+    EVENTS_END
 };
 _Static_assert((int)EVENTS_END <= (int)BASIC_EVENTS, "too many events");
 

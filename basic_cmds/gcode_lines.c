@@ -35,8 +35,7 @@ static err_t read_code(const basic_text_t *code, gcode_word_t *word) {
     num_t number;
     const char *end = code->text + code->length;
     char letter = (char)toupper((unsigned char)code->text[0]);
-    if (!isalpha((unsigned char)letter) ||
-        num_parse(code->text + 1, end, false, &number) != end) {
+    if (!isalpha((unsigned char)letter) || num_parse(code->text + 1, end, false, &number) != end) {
         return err_raise(ERR_GCODE_UNSUPPORTED, "%.*s", (int)code->length, code->text);
     }
     *word = (gcode_word_t){.letter = letter, .value = number.value};

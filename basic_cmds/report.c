@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
@@ -140,6 +141,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
+    safety_print_status();
     print_outputs();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         print_axis(axis);

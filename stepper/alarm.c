@@ -64,9 +64,9 @@ const char *alarm_names(char names[ALARM_NAMES_SIZE]) {
     if (state.alarm == STEPPER_ALARM_ESTOP) {
         return "E-STOP";
     }
-    static const char before[] = "Limit switch ";
-    memcpy(names, before, sizeof before);
-    limits_names(names + sizeof before - 1, ALARM_NAMES_SIZE - sizeof before, state.trip.switches);
+    char switches[STEPPER_SWITCH_NAMES_SIZE];
+    format_text(names, ALARM_NAMES_SIZE, "Limit switch %s",
+                stepper_switch_names(switches, state.trip.switches));
     return names;
 }
 

@@ -33,15 +33,16 @@ const char *stepper_switch_name(stepper_switch_t which) {
     return names[which];
 }
 
-void limits_names(char *text, size_t size, uint32_t switches) {
+const char *stepper_switch_names(char text[STEPPER_SWITCH_NAMES_SIZE], uint32_t switches) {
     size_t length = 0;
     text[0] = '\0';
-    for (unsigned n = 0; n < STEPPER_SWITCHES && length < size; n++) {
+    for (unsigned n = 0; n < STEPPER_SWITCHES; n++) {
         if ((switches >> n) & 1) {
-            length +=
-                format_text(text + length, size - length, "%s%s", length > 0 ? ", " : "", names[n]);
+            length += format_text(text + length, STEPPER_SWITCH_NAMES_SIZE - length, "%s%s",
+                                  length > 0 ? ", " : "", names[n]);
         }
     }
+    return text;
 }
 
 // ---- Pins ---------------------------------------------------------------------------------------

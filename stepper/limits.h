@@ -34,7 +34,4 @@ void limits_follow(void);
 // The samples of a latch at a limit switch or probe.
 uint32_t limits_latch_samples(void);
 
-// "X_MIN, Y_MAX" for the switches.
-void limits_names(char *text, size_t size, uint32_t switches);
-
 #endif

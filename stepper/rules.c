@@ -4,7 +4,6 @@
 #include "stepper/alarm.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
-#include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/planner.h"
@@ -72,8 +71,7 @@ static err_t refuse(rules_condition_t condition) {
     } else if (condition == RULES_ALARM) {
         detail = alarm_names(names);
     } else if (condition == RULES_LIMIT) {
-        limits_names(names, sizeof names, stepper_overridden());
-        detail = names;
+        detail = stepper_switch_names(names, stepper_overridden());
     }
     return err_raise(conditions[condition].error, "%s", detail);
 }

@@ -56,6 +56,10 @@ void stepper_safety(stepper_safety_t *config);
 // "X_MIN".
 const char *stepper_switch_name(stepper_switch_t which);
 
+// "X_MIN, Y_MAX" for the switches (bit n: switch n). Returns `text`.
+#define STEPPER_SWITCH_NAMES_SIZE 48
+const char *stepper_switch_names(char text[STEPPER_SWITCH_NAMES_SIZE], uint32_t switches);
+
 // Switches that are pressed now; bit n: switch n.
 uint32_t stepper_pressed(void);
 
