@@ -45,8 +45,8 @@ void governor_fill(uint32_t ticks);
 // Contexts: also governor.
 bool governor_emergency_stop(bool keep_enabled);
 
-// What the tick's inputs have done since the last call: the pins that stopped the machine, 0 if none
-// did, and whether a motor was in motion then.
+// What the tick's inputs have done since the last call: the pins that stopped the machine, 0 if
+// none did, and whether a motor was in motion then.
 typedef struct {
     uint32_t pins;
     bool moved;

@@ -21,8 +21,8 @@ uint32_t limits_levels(void);
 // The switches that are there.
 uint32_t limits_assigned(void);
 
-// From now on these do not trip, because a motion goes to them on purpose; 0: all trip again, except
-// those that are pressed. Also the inputs' levels and filters are made known to the tick.
+// From now on these do not trip, because a motion goes to them on purpose; 0: all trip again,
+// except those that are pressed. Also the inputs' levels and filters are made known to the tick.
 void limits_except(uint32_t switches);
 
 // The machine has been armed: what is pressed is overridden.

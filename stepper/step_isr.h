@@ -1,10 +1,10 @@
-// The tick: executes segments, at most one step of each axis in a tick, and samples inputs before each
-// step. Inside stepper/ only.
+// The tick: executes segments, at most one step of each axis in a tick, and samples inputs before
+// each step. Inside stepper/ only.
 //
 // There are two kinds of inputs. One of those that trip stops the machine: no step from the sample
 // on, the tick has stopped itself, the governor is called. One of those that latch leaves a note of
-// where the motors were and calls the governor, which brakes. A level counts when it was there for so
-// many samples, 10 us apart, in a row.
+// where the motors were and calls the governor, which brakes. A level counts when it was there for
+// so many samples, 10 us apart, in a row.
 #ifndef STEPPER_STEP_ISR_H
 #define STEPPER_STEP_ISR_H
 
@@ -54,22 +54,23 @@ bool step_isr_watches(void);
 
 #define STEP_ISR_LATCH_SAMPLES_MAX 16u
 
-// From now on the first pin of `pins` that has its bit of `levels` for 1..STEP_ISR_LATCH_SAMPLES_MAX
-// `samples` leaves a note; one that has it already does so at once. Motion is braked then and the
-// queue dropped, as by a controlled stop. Pins that also trip do trip: take them out first
-// (step_isr_watch). Forgets an earlier note. Context: main with the governor locked.
+// From now on the first pin of `pins` that has its bit of `levels` for
+// 1..STEP_ISR_LATCH_SAMPLES_MAX `samples` leaves a note; one that has it already does so at once.
+// Motion is braked then and the queue dropped, as by a controlled stop. Pins that also trip do
+// trip: take them out first (step_isr_watch). Forgets an earlier note. Context: main with the
+// governor locked.
 void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples);
 
 // No longer. Context: main with the governor locked.
 void step_isr_latch_disarm(void);
 
-// True once a pin has left its note: the pins, and where the motors were at the first of the samples,
-// exactly. Until the latch is armed or disarmed. Context: main with the governor locked.
+// True once a pin has left its note: the pins, and where the motors were at the first of the
+// samples, exactly. Until the latch is armed or disarmed. Context: main with the governor locked.
 bool step_isr_latched(int32_t steps[AXIS_COUNT], uint32_t *pins);
 
 // For the governor. A note waits to be made into a position; doing so, false if the machine stands
-// and its position is to be told with step_isr_latch_stand(); how many of the free slots must not be
-// written meanwhile, because the note may need them.
+// and its position is to be told with step_isr_latch_stand(); how many of the free slots must not
+// be written meanwhile, because the note may need them.
 bool step_isr_latch_waits(void);
 bool step_isr_latch_collect(void);
 void step_isr_latch_stand(const int32_t steps[AXIS_COUNT]);

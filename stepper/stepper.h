@@ -213,8 +213,8 @@ uint32_t stepper_blocks_free(void);
 
 #define STEPPER_STATUS_ESTOP (1u << 6)
 #define STEPPER_STATUS_POSITION_KNOWN (1u << 7)
-// Live inputs and state: the bits of PEEK(STEPPER STATUS). Bits 0 to 5: limit switches, in the order
-// of stepper_switch_t.
+// Live inputs and state: the bits of PEEK(STEPPER STATUS). Bits 0 to 5: limit switches, in the
+// order of stepper_switch_t.
 uint32_t stepper_status_bits(void);
 
 #endif

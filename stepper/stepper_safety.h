@@ -34,9 +34,9 @@ typedef struct {
     uint32_t active_high;           // bit n: switch n; pulled down then, otherwise pulled up
 } stepper_hwlimits_t;
 
-// Sets all switches anew; a refused call changes nothing. A switch that is pressed while the machine
-// is armed is overridden (stepper_overridden). Errors: not initialised, moving or queued, pins
-// taken, polarities of a shared pin differ.
+// Sets all switches anew; a refused call changes nothing. A switch that is pressed while the
+// machine is armed is overridden (stepper_overridden). Errors: not initialised, moving or queued,
+// pins taken, polarities of a shared pin differ.
 err_t stepper_hwlimits(const stepper_hwlimits_t *config);
 
 // How many samples in a row an input has to be active to trip; 1..STEPPER_FILTER_MAX. INIT sets the
@@ -85,8 +85,8 @@ typedef struct {
 void stepper_last_trip(stepper_trip_t *trip);
 
 // Acknowledges the alarm, whatever it is: stops what moves (by an emergency stop that leaves the
-// drivers as they are), spindle off, queue dropped, disarmed. The position stays what it is, unless a
-// motor was in motion. Errors: not initialised, E-STOP pressed.
+// drivers as they are), spindle off, queue dropped, disarmed. The position stays what it is, unless
+// a motor was in motion. Errors: not initialised, E-STOP pressed.
 err_t stepper_recover(void);
 
 // ---- Events -------------------------------------------------------------------------------------
