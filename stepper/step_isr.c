@@ -291,6 +291,7 @@ void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples) {
     isr.latch.suspects = 0;
     isr.latch.pins = pins;
     watch();
+    hal_tick_start();
 }
 
 void step_isr_latch_disarm(void) {
