@@ -2,7 +2,6 @@
 #include "host_pwm.h"
 
 #include "hal/hal.h"
-#include "hal/hal_io.h"
 #include "host_clock.h"
 #include "host_trace.h"
 
@@ -141,6 +140,10 @@ uint32_t host_pwm_levels(void) {
         levels |= level_of(gpio, host_clock_now_ns()) ? 1u << gpio : 0;
     }
     return levels;
+}
+
+const hal_pwm_t *host_pwm_settings(unsigned slice) {
+    return &slices[slice].pwm;
 }
 
 // ---- The seam -----------------------------------------------------------------------------------
