@@ -53,8 +53,9 @@ static struct {
     int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
     uint32_t end_ticks;
     uint32_t unpublished; // slots that are filled
-    pace_t pace;          // the last one; the next is often the same
-} writer;
+    pace_t paces[2];      // the last two; at a steady speed slices of two lengths take turns
+    uint32_t recent;      // which of them is the last one
+} writer = {.paces = {{.due = -1}, {.due = -1}}}; // made for nothing yet
 
 // Segments that were dropped may have been about to turn an axis round, so the pins have the last
 // word.
@@ -277,8 +278,7 @@ typedef struct {
     int32_t change; // of the path's speed on the way
 } way_t;
 
-SEPARATE static void set_pace(int32_t due, int32_t change) {
-    pace_t *pace = &writer.pace;
+SEPARATE static void set_pace(pace_t *pace, int32_t due, int32_t change) {
     uint32_t share = UINT32_MAX;
     pace->due = due;
     pace->change = change;
@@ -296,11 +296,20 @@ SEPARATE static void set_pace(int32_t due, int32_t change) {
     pace->slowing = change < 0;
 }
 
+static inline bool is_for(const pace_t *pace, const way_t *way) {
+    return way->due == pace->due && way->change == pace->change;
+}
+
 static inline uint32_t go(const way_t *way) {
-    if (way->due != writer.pace.due || way->change != writer.pace.change) {
-        set_pace(way->due, way->change);
+    pace_t *pace = &writer.paces[writer.recent];
+    if (!is_for(pace, way)) {
+        writer.recent ^= 1;
+        pace = &writer.paces[writer.recent];
+        if (!is_for(pace, way)) {
+            set_pace(pace, way->due, way->change);
+        }
     }
-    return write_segment(way->target, &writer.pace);
+    return write_segment(way->target, pace);
 }
 
 // Goes only one tick of what is in the open slot. `standing`: axes that do not take part.

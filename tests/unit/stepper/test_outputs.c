@@ -72,7 +72,7 @@ static void test_speed_is_duty(void) {
     static const struct {
         double rpm;
         unsigned level;
-    } speeds[] = {{5000, COUNTS / 2}, {10000, COUNTS}, {20000, COUNTS},   {1, COUNTS / 10},
+    } speeds[] = {{5000, COUNTS / 2},  {10000, COUNTS}, {20000, COUNTS},   {1, COUNTS / 10},
                   {1000, COUNTS / 10}, {0, 0},          {2500, COUNTS / 4}};
     start(&pwm_spindle);
     TEST_ASSERT_EQUAL_UINT(COUNTS - 1, host_pwm_settings(SLICE)->top);
@@ -531,7 +531,8 @@ static void test_lines_of_moves_and_blends(void) {
         uint32_t line = stepper_line();
         TEST_ASSERT_TRUE(line == last || line == last + 1 || line == 0);
         int64_t x = bench.motors[AXIS_X].position_steps;
-        TEST_ASSERT_TRUE(line == 0 || llabs(x - 400 * (int64_t)line + 200) < 200 + 150); // blends reach back
+        TEST_ASSERT_TRUE(line == 0 ||
+                         llabs(x - 400 * (int64_t)line + 200) < 200 + 150); // blends reach back
         last = line != 0 ? line : last;
         bench_wait_us(1000);
     }
@@ -576,7 +577,8 @@ static void test_refused_settings_change_nothing(void) {
     TEST_ASSERT_EQUAL(ERR_OK, stepper_dwell(100));
     wrong = pwm_spindle;
     wrong.gpio = 20;
-    check_refused(ERR_STEPPER_BUSY, &wrong, "Not possible while motion is active or G-code is queued");
+    check_refused(ERR_STEPPER_BUSY, &wrong,
+                  "Not possible while motion is active or G-code is queued");
     bench_end();
     TEST_ASSERT_NULL(pins_owner(BENCH_SPINDLE_GPIO));
     TEST_ASSERT_NULL(pins_owner(DIR_GPIO));
