@@ -20,13 +20,18 @@ from motion_checks import (
     speeds,
 )
 from typed import (
+    ENABLE_Z,
     READY,
     SET_UP,
     WAIT,
+    X_MIN,
+    Event,
     error_of,
     program,
     typed,
 )
+
+SWITCHES = "STEPPER HWLIMITS GP16,GP17,GP18,GP19"
 
 FEED = (
     'FOR i=1 TO {count} : DO WHILE PEEK(STEPPER BUFFER)=0 : PAUSE 1 : LOOP : STEPPER GS "{line}" '
@@ -431,6 +436,29 @@ def test_2_22_timing_jitter(tmp_path: Path) -> None:
             ideal_ns = 1e6 / (rate_khz * ratio)
             off = middle - middle[0] - ideal_ns * np.arange(len(middle))
             assert off.max() - off.min() <= 10_001, (rate_khz, name)
+
+
+def test_2_23_noise_trips_and_drivers_drop(tmp_path: Path) -> None:
+    """20 us of noise are ignored, 100 us trip; with KEEP a Z axis stays held."""
+    lines = [
+        SWITCHES,
+        "STEPPER HWLIMITS KEEP 1",
+        "STEPPER POSITION HOME",
+        "STEPPER RUN",
+        "STEPPER GC G1 Z20 F1200",
+        "PAUSE 3000",
+        "PRINT PEEK(STEPPER STATUS) AND 128",
+    ]
+    levels = [Event(0, X_MIN, 1), Event(300, X_MIN, 0), Event(300.018, X_MIN, 1)]
+    session = typed(tmp_path, *SET_UP, *lines, events=levels)
+    assert session.end("Z") == 20
+    assert session.number() == 128
+    levels += [Event(500, X_MIN, 0), Event(500.1, X_MIN, 1)]
+    session = typed(tmp_path, *SET_UP, *lines, events=levels)
+    assert 1 < session.end("Z") < 20
+    assert session.axis("Z").step_ns[-1] <= 500.04e6
+    assert session.number() == 0
+    assert session.level(ENABLE_Z) == 0
 
 
 def test_2_24_soft_limits_to_the_step(tmp_path: Path) -> None:

@@ -101,6 +101,8 @@ THERE = {
     "coolant": Feature(["STEPPER COOLANT GP19,GP20", *gc("M7", "M8", "M9"), WAIT]),
     "tools": Feature([*gc("T2", "M6", "G0 X1"), "PAUSE 100", "STEPPER RESUME", WAIT], {"X": 1}),
     "dwell in seconds": Feature(["STEPPER DIALECT NIST", *gc("G4 P0.1"), WAIT]),
+    "one switch only": Feature(["STEPPER HWLIMITS 0,GP17"]),
+    "events": Feature(["PRINT PEEK(STEPPER EVENT)"]),
     "settings kept over power-off": Feature(["OPTION AUTORUN OFF", "x = 1", WAIT, "VAR SAVE x"]),
 }
 """What the original lacks and we have."""

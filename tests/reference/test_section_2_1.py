@@ -17,6 +17,7 @@ MOVE = "STEPPER GC G1 X50 F3000"
     [
         "AXIS X,GP2,GP3",
         "TUNE X,,80",
+        "HWLIMITS GP16,GP17,GP18",
         "LIMITS X,0,100",
         "ESTOP",
         "GC G1 X10 F500",

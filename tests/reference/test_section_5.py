@@ -182,6 +182,23 @@ def test_peek_status_bits_6_and_7(tmp_path: Path) -> None:
     assert [int(session.number(n)) & 192 for n in (-7, -5, -3, -1)] == [0, 128, 192, 128]
 
 
+@pytest.mark.parametrize(("gpio", "bit"), [(16, 0), (19, 1), (17, 2), (20, 3), (18, 4), (21, 5)])
+def test_peek_status_bits_of_limits(gpio: int, bit: int, tmp_path: Path) -> None:
+    """Each switch has its bit, which follows its level."""
+    ask = "PRINT PEEK(STEPPER STATUS) AND 63"
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        "STEPPER HWLIMITS GP16,GP17,GP18,GP19,GP20,GP21",
+        "PAUSE 15",
+        ask,
+        "PAUSE 10",
+        ask,
+        events=[Event(10, gpio, 0), Event(20, gpio, 1)],
+    )
+    assert [int(session.number(n)) for n in (-3, -1)] == [1 << bit, 0]
+
+
 def test_peek_buffer_throttles(tmp_path: Path) -> None:
     """Free slots: it falls by one for each line; a line into 0 is refused and loses nothing."""
     session = typed(
