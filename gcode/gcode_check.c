@@ -19,7 +19,7 @@ static err_t resolve_once(line_t *line, const gcode_state_t *before) {
         line->once = ONCE_GO_STORED;
         double p = line_has(line, WORD_P) ? line->value[WORD_P] : 2.0;
         if (p != 1.0 && p != 2.0) {
-            return err_raise(ERR_GCODE_RANGE, "P: %g is invalid (valid is 1 or 2 with G30)", p);
+            return err_raise(ERR_GCODE_RANGE, "P: %.10g is invalid (valid is 1 or 2 with G30)", p);
         }
         line->stored = p == 1.0 ? STORED_G28 : STORED_G30;
     }
@@ -50,8 +50,12 @@ static err_t find_user_of_axes(line_t *line) {
     const char *user = other_user_of_axes(line);
     bool given = gives_length(line);
     bool motion = line_has_group(line, GROUP_MOTION) && line->modal.motion != MOTION_NONE;
-    if ((user != NULL || given) && (motion || (user != NULL && given))) {
-        return err_raise(ERR_GCODE_AXES_TWICE, "%s", user != NULL ? user : "G43.1");
+    if ((user != NULL || given) && motion) {
+        return err_raise(ERR_GCODE_AXES_TWICE, "%s and a motion mode",
+                         user != NULL ? user : "G43.1");
+    }
+    if (user != NULL && given) {
+        return err_raise(ERR_GCODE_AXES_TWICE, "%s and G43.1", user);
     }
     if (user != NULL || given) {
         return ERR_OK;
@@ -153,7 +157,7 @@ static void convert_inches(line_t *line) {
 // ---- Values -------------------------------------------------------------------------------------
 
 static err_t p_range(double value, const char *valid, double most) {
-    return err_raise(ERR_GCODE_RANGE, "P: %g is invalid (valid is %s%.0f)", value, valid, most);
+    return err_raise(ERR_GCODE_RANGE, "P: %.10g is invalid (valid is %s%.0f)", value, valid, most);
 }
 
 static bool is_whole(double value, double min, double max) {
@@ -183,7 +187,7 @@ static err_t check_set(const line_t *line) {
     }
     double l = line->value[WORD_L];
     if (l != 1.0 && l != 2.0 && l != 20.0) {
-        return err_raise(ERR_GCODE_RANGE, "L: %g is invalid (valid is 1, 2 and 20 with G10)", l);
+        return err_raise(ERR_GCODE_RANGE, "L: %.10g is invalid (valid is 1, 2 and 20 with G10)", l);
     }
     if (!line_has(line, WORD_P)) {
         return needs(l == 1.0 ? "G10 L1 needs P, the tool"

@@ -201,7 +201,7 @@ err_t gcode_codes_read(line_t *line, char letter, double value) {
     const code_t *code = letter == 'G' ? find(g_codes, COUNT_OF_ARRAY(g_codes), tenths)
                                        : find(m_codes, COUNT_OF_ARRAY(m_codes), tenths);
     if (code == NULL) {
-        return err_raise(ERR_GCODE_UNSUPPORTED, "%c%g", letter, value);
+        return err_raise(ERR_GCODE_UNSUPPORTED, "%c%.12g", letter, value);
     }
     if (line_has_group(line, (group_t)code->group)) {
         return err_raise(ERR_GCODE_CONFLICT, "%s", group_names[code->group]);

@@ -91,6 +91,9 @@ err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcod
         if (!isalpha((unsigned char)*p)) {
             return unexpected(*p);
         }
+        if (toupper((unsigned char)*p) == 'O') {
+            return err_raise(ERR_GCODE_O_WORD, NULL); // what follows may be of any form
+        }
         if (lexed->count == GCODE_WORDS_MAX) {
             return err_raise(ERR_GCODE_TOO_MANY_WORDS, NULL);
         }
@@ -98,8 +101,7 @@ err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcod
         word->letter = (char)toupper((unsigned char)*p);
         p = read_number(skip_blanks(p + 1, end, lexed), end, &word->value, lexed);
         if (p == NULL) {
-            return word->letter == 'O' ? err_raise(ERR_GCODE_O_WORD, NULL)
-                                       : err_raise(ERR_GCODE_MISSING_VALUE, "%c", word->letter);
+            return err_raise(ERR_GCODE_MISSING_VALUE, "%c", word->letter);
         }
         lexed->count++;
     }

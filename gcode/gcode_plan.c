@@ -162,7 +162,7 @@ err_t gcode_plan_motion(const line_t *line, const gcode_state_t *state,
     move->rapid = line->modal.motion == MOTION_RAPID;
     move->corner = line->modal.path.corner;
     move->blend_mm = line->modal.path.blend_mm;
-    move->sets_spindle = line_has(line, WORD_S);
+    move->sets_spindle = line_has(line, WORD_S) && !line_has_group(line, GROUP_SPINDLE);
     move->spindle_rpm = line->modal.rpm;
     find_target(line, state, from, move->target);
     if (line_is_arc(line)) {

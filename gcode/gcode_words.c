@@ -29,18 +29,18 @@ static const range_t ranges[WORDS] = {
     [WORD_F] = {GCODE_FEED_MIN, GCODE_FEED_MAX, false},
     [WORD_H] = {0, 99999, true},
     [WORD_L] = {1, 9999, true},
-    [WORD_N] = {0, 999999999, true},
+    [WORD_N] = {0, 1e12, true},
     [WORD_S] = {0, 1000000, false},
     [WORD_T] = {0, 99999, true},
 };
 
 static err_t check_range(char letter, const range_t *range, double value) {
     if (!(value >= range->min && value <= range->max)) {
-        return err_raise(ERR_GCODE_RANGE, "%c: %g is invalid (valid is %g to %g)", letter, value,
+        return err_raise(ERR_GCODE_RANGE, "%c: %.10g is invalid (valid is %g to %g)", letter, value,
                          range->min, range->max);
     }
     if (range->whole && value != floor(value)) {
-        return err_raise(ERR_GCODE_RANGE, "%c: %g is no whole number", letter, value);
+        return err_raise(ERR_GCODE_RANGE, "%c: %.10g is no whole number", letter, value);
     }
     return ERR_OK;
 }
