@@ -7,6 +7,7 @@
 #include "stepper/stepper_check.h"
 #include "stepper/stepper_homing.h"
 #include "stepper/stepper_outputs.h"
+#include "stepper/stepper_safety.h"
 
 static void (*listener)(const char *text, size_t length);
 
@@ -102,18 +103,13 @@ static gcode_spindle_t spindle(void) {
     return (gcode_spindle_t)outputs.turn;
 }
 
-// Stops are not counted yet where others can ask for it.
-static uint32_t drops(void) {
-    return 0;
-}
-
 const gcode_sink_t gcode_machine = {
     .target = stepper_target,
     .place = place,
     .check = check,
     .push = push,
     .ended = ended,
-    .drops = drops,
+    .drops = stepper_drops,
     .spindle = spindle,
     .tell = tell,
 };
