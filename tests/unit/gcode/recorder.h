@@ -14,8 +14,8 @@ typedef struct {
     uint32_t room;  // entries that are still taken; UINT32_MAX: any number
     uint32_t drops; // tests raise it
     gcode_spindle_t spindle;
-    bool ended;    // homing or probing has ended
-    err_t result;  // with this
+    bool ended;   // homing or probing has ended
+    err_t result; // with this
 } recorder_t;
 
 extern recorder_t recorder;
