@@ -8,6 +8,7 @@
 #include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_homing.h"
 
 static struct {
     stepper_alarm_t alarm;
@@ -38,7 +39,9 @@ static void follow_trip(void) {
     state.trip.switches = limits_switches(trip.pins);
     state.trip.estop = (trip.pins & pins_mask(machine.config.estop_gpio)) != 0;
     state.trip.position_lost = machine.position_known && trip.moved;
-    machine.position_known = machine.position_known && !trip.moved;
+    if (trip.moved) {
+        machine_lose_position(MACHINE_ALL_AXES);
+    }
     if (state.trip.estop) {
         state.alarm = STEPPER_ALARM_ESTOP;
         stepper_raise_event(STEPPER_EVENT_ESTOP);
@@ -97,7 +100,9 @@ err_t stepper_recover(void) {
     hal_governor_lock();
     bool moved = governor_emergency_stop(true);
     hal_governor_unlock();
-    machine.position_known = machine.position_known && !moved;
+    if (moved) {
+        machine_lose_position(MACHINE_ALL_AXES);
+    }
     machine_follow_stops();
     alarm_count_drop();
     return alarm_acknowledge();
@@ -111,7 +116,8 @@ void stepper_raise_event(stepper_event_t event) {
 
 stepper_event_t stepper_next_event(void) {
     alarm_follow();
-    if (!governor_working() && ends() != state.ends_seen) {
+    bool idle = !governor_working() && stepper_cycle() == STEPPER_CYCLE_NONE;
+    if (idle && ends() != state.ends_seen) {
         state.ends_seen = ends();
         stepper_raise_event(STEPPER_EVENT_IDLE);
     }

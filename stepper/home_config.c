@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include "stepper/axis.h"
+#include "stepper/limits.h"
 #include "stepper/machine.h"
+#include "stepper/rules.h"
 
 #define SEEK_PART 0.5 // of the axis's speed
 #define SEEK_MAX_MM_MIN 3000.0
@@ -34,7 +36,7 @@ void home_config_reset(void) {
 }
 
 err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_HOME_SETTING);
     if (err == ERR_OK) {
         err = machine_check_axis(axis);
     }
@@ -51,11 +53,29 @@ err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config) {
     return err;
 }
 
-// Limit inputs do not exist yet, so no axis has a switch.
+static uint32_t switch_bit(axis_id_t axis, bool max) {
+    return 1u << (2 * axis + max);
+}
+
 bool home_config_switch(axis_id_t axis, home_switch_t *found) {
-    (void)axis;
-    *found = (home_switch_t){0};
-    return false;
+    uint32_t assigned = limits_assigned();
+    stepper_home_end_t end = homes.axes[axis].end;
+    found->max = end == STEPPER_HOME_MAX ||
+                 (end == STEPPER_HOME_AUTO && (assigned & switch_bit(axis, false)) == 0);
+    found->bit = switch_bit(axis, found->max);
+    found->pin = limits_pins(found->bit);
+    found->high = (limits_levels() & found->pin) != 0;
+    return (assigned & found->bit) != 0;
+}
+
+uint32_t home_config_all(void) {
+    uint32_t all = 0;
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        home_switch_t found;
+        bool homes_there = axes[axis].configured && home_config_switch(axis, &found);
+        all |= (uint32_t)homes_there << axis;
+    }
+    return all;
 }
 
 static double given_or(float given, double otherwise) {
@@ -82,7 +102,7 @@ void stepper_home_settings(axis_id_t axis, stepper_home_t *settings) {
 }
 
 err_t stepper_home_order(const uint8_t groups[STEPPER_HOME_AXES]) {
-    err_t err = machine_check_at_rest();
+    err_t err = rules_check(RULES_DO_HOME_SETTING);
     uint32_t seen = 0;
     for (unsigned n = 0; n < STEPPER_HOME_AXES && err == ERR_OK; n++) {
         if ((seen & groups[n]) != 0) {

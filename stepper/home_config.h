@@ -10,10 +10,14 @@ void home_config_reset(void);
 // The switch that the axis homes to. False: it has none.
 typedef struct {
     bool max;     // at the upper end
+    bool high;    // level of its pin when it is closed
+    uint32_t bit; // its number in stepper_switch_t as a mask
     uint32_t pin; // mask
-    bool high;    // its level when it is closed
 } home_switch_t;
 bool home_config_switch(axis_id_t axis, home_switch_t *found);
+
+// The axes that have one.
+uint32_t home_config_all(void);
 
 // The axes of `left` (mask, not 0) that are homed next, together.
 uint32_t home_config_next(uint32_t left);

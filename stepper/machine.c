@@ -95,6 +95,20 @@ bool machine_estop_asserted(void) {
     return mask != 0 && (hal_pins_read() & mask) == 0;
 }
 
+void machine_stand_at(const int32_t steps[AXIS_COUNT]) {
+    hal_governor_lock();
+    governor_set_position(steps);
+    hal_governor_unlock();
+    moves_set_position(steps);
+    machine.known_axes = MACHINE_ALL_AXES;
+    machine.position_known = true;
+}
+
+void machine_lose_position(uint32_t lost) {
+    machine.known_axes = (uint8_t)(machine.known_axes & ~lost);
+    machine.position_known = false;
+}
+
 void machine_stop_and_wait(void) {
     stepper_stop();
     while (governor_working()) {

@@ -8,8 +8,9 @@
 typedef struct {
     bool initialized;
     bool position_known;
-    bool alarm;        // a safety input has stopped the machine, not yet acknowledged
-    bool limit_active; // the machine stands on a limit switch and may only leave it
+    uint8_t known_axes; // mask: all while it is known; those that were homed since it was lost
+    bool alarm;         // a safety input has stopped the machine, not yet acknowledged
+    bool limit_active;  // the machine stands on a limit switch and may only leave it
     stepper_idle_t idle;
     stepper_init_t config;
     int feed_override, rapid_override; // percent
@@ -40,6 +41,13 @@ bool machine_executing(void);
 void machine_await_end(void);
 
 bool machine_estop_asserted(void);
+
+// Says that the motors stand at `steps`; the position is known then. At rest only.
+void machine_stand_at(const int32_t steps[AXIS_COUNT]);
+
+// The position of these axes is lost, and so that of the machine is not known.
+#define MACHINE_ALL_AXES ((1u << AXIS_COUNT) - 1)
+void machine_lose_position(uint32_t lost);
 
 // Makes the pins of the configuration known to tick and governor. At rest only.
 void machine_pass_pins_on(void);

@@ -60,7 +60,8 @@ static uint32_t find_state(void) {
            bit(working, RULES_MOVING) | bit(queued && !jogging, RULES_JOB) |
            bit(working || queued, RULES_BUSY) | bit(machine.limit_active, RULES_LIMIT) |
            bit(armed, RULES_ARMED) | bit(!armed, RULES_NOT_ARMED) |
-           bit(!machine.position_known, RULES_POSITION) | bit(moves_free() == 0, RULES_FULL);
+           bit(queued && !armed, RULES_WAITING) | bit(!machine.position_known, RULES_POSITION) |
+           bit(moves_free() == 0, RULES_FULL);
 }
 
 static err_t refuse(rules_condition_t condition) {

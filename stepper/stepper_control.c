@@ -1,6 +1,7 @@
 // Arming, stopping, and where the machine stands. Context: main loop.
 #include "stepper/alarm.h"
 #include "stepper/axis.h"
+#include "stepper/cycle.h"
 #include "stepper/governor.h"
 #include "stepper/limits.h"
 #include "stepper/machine.h"
@@ -42,6 +43,7 @@ void stepper_stop(void) {
     if (!machine.initialized) {
         return;
     }
+    cycle_stop();
     if (!governor_working()) {
         stepper_hold(false);
         drop_queue();
@@ -92,7 +94,9 @@ err_t stepper_estop(void) {
     hal_governor_lock();
     bool moved = governor_emergency_stop(machine.config.estop_keeps_enabled);
     hal_governor_unlock();
-    machine.position_known = machine.position_known && !moved;
+    if (moved) {
+        machine_lose_position(MACHINE_ALL_AXES);
+    }
     alarm_count_drop();
     machine_follow_stops();
     return ERR_OK;
@@ -100,21 +104,13 @@ err_t stepper_estop(void) {
 
 // ---- Position -----------------------------------------------------------------------------------
 
-static void stand_at(const int32_t steps[AXIS_COUNT]) {
-    hal_governor_lock();
-    governor_set_position(steps);
-    hal_governor_unlock();
-    moves_set_position(steps);
-    machine.position_known = true;
-}
-
 err_t stepper_set_home(void) {
     err_t err = rules_check(RULES_DO_PLACE);
     if (err == ERR_OK) {
         err = alarm_acknowledge();
     }
     if (err == ERR_OK) {
-        stand_at((const int32_t[AXIS_COUNT]){0});
+        machine_stand_at((const int32_t[AXIS_COUNT]){0});
     }
     return err;
 }
@@ -134,7 +130,7 @@ err_t stepper_set_position(axis_id_t axis, double position) {
     }
     err = alarm_acknowledge();
     if (err == ERR_OK) {
-        stand_at(steps);
+        machine_stand_at(steps);
     }
     return err;
 }

@@ -6,6 +6,7 @@
 #include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/step_isr.h"
+#include "stepper/stepper_homing.h"
 #include "stepper/stepper_safety.h"
 
 void stepper_status(stepper_status_t *status) {
@@ -13,7 +14,7 @@ void stepper_status(stepper_status_t *status) {
     *status = (stepper_status_t){
         .initialized = machine.initialized,
         .armed = governor_armed(),
-        .moving = governor_working(),
+        .moving = stepper_active() > 0,
         .stopping = machine_stopping(),
         .holding = governor_holding(),
         .jogging = jog_active(),
@@ -60,7 +61,7 @@ int stepper_active(void) {
     if (!machine.initialized) {
         return -1;
     }
-    return governor_working() ? 1 : 0;
+    return governor_working() || stepper_cycle() != STEPPER_CYCLE_NONE ? 1 : 0;
 }
 
 uint32_t stepper_blocks_free(void) {

@@ -2,6 +2,7 @@
 #include "hal/hal_io.h"
 #include "stepper/alarm.h"
 #include "stepper/axis.h"
+#include "stepper/cycle.h"
 #include "stepper/geometry.h"
 #include "stepper/governor.h"
 #include "stepper/home_config.h"
@@ -10,6 +11,7 @@
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
 #include "stepper/planner.h"
+#include "stepper/probing.h"
 #include "stepper/rules.h"
 #include "stepper/step_isr.h"
 #include "stepper/stepper_axes.h"
@@ -61,10 +63,11 @@ static void reset_motion(void) {
     };
     stepper_override(100, 100);
     home_config_reset();
+    probing_reset();
 }
 
 static void start_afresh(void) {
-    machine.position_known = false;
+    machine_lose_position(MACHINE_ALL_AXES);
     machine.idle = STEPPER_IDLE_HOLD;
     reset_motion();
     machine_pass_pins_on();
@@ -88,6 +91,13 @@ err_t stepper_init(const stepper_init_t *config) {
     return ERR_OK;
 }
 
+// Steps of another size: the axis stands somewhere else by its count.
+static void lose_if(axis_id_t axis, bool rescaled) {
+    if (rescaled) {
+        machine_lose_position(1u << axis);
+    }
+}
+
 err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
     err_t err = rules_check(RULES_DO_PINS);
     if (err != ERR_OK) {
@@ -102,7 +112,7 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
     hal_governor_unlock();
     err = axis_configure(axis, config);
     if (err == ERR_OK) {
-        machine.position_known = machine.position_known && !rescaled;
+        lose_if(axis, rescaled);
         machine_pass_pins_on();
         planner_set_scale();
         machine_follow_motors();
@@ -123,7 +133,7 @@ err_t stepper_tune(axis_id_t axis, const stepper_axis_t *config) {
     }
     bool rescaled = axes[axis].config.steps_per_unit != config->steps_per_unit;
     axis_tune(axis, config);
-    machine.position_known = machine.position_known && !rescaled;
+    lose_if(axis, rescaled);
     machine_pass_pins_on();
     planner_set_scale();
     machine_follow_motors();
@@ -215,6 +225,8 @@ static void forget_machine(void) {
     governor_emergency_stop(false); // spindle off, drivers off, disarmed
     hal_governor_unlock();
     machine_follow_stops();
+    cycle_forget();
+    probing_release();
     outputs_take_away();
     axis_release_all();
     limits_release();

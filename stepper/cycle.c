@@ -1,0 +1,200 @@
+// Cycles: what homing and probing have in common. Context: main loop.
+#include "stepper/cycle.h"
+
+#include "stepper/axis.h"
+#include "stepper/governor.h"
+#include "stepper/homing.h"
+#include "stepper/limits.h"
+#include "stepper/machine.h"
+#include "stepper/moves.h"
+#include "stepper/probing.h"
+#include "stepper/step_isr.h"
+
+#define SETTLE_TICKS (HAL_TICK_HZ / 50u) // 20 ms: no switch bounces for longer
+
+static struct {
+    stepper_cycle_t kind;
+    bool stopped;   // somebody asked for a stop
+    bool was_armed; // when it began
+
+    stepper_cycle_t last; // how that one ended
+    cycle_end_t end;
+    uint8_t end_axes;
+    float end_mm;
+    const char *end_phase;
+    bool end_max; // the switch of the first of `end_axes`
+} cycle;
+
+// What each kind does at a standstill, and when it ends.
+typedef struct {
+    void (*advance)(void);
+    void (*end)(bool done);
+} kind_t;
+
+static const kind_t kinds[] = {
+    [STEPPER_CYCLE_HOMING] = {homing_advance, homing_end},
+    [STEPPER_CYCLE_PROBING] = {probing_advance, probing_end},
+};
+
+stepper_cycle_t stepper_cycle(void) {
+    return cycle.kind;
+}
+
+static void arm(bool idle_off) {
+    hal_governor_lock();
+    governor_arm(idle_off);
+    hal_governor_request();
+    hal_governor_unlock();
+}
+
+void cycle_begin(stepper_cycle_t kind) {
+    cycle.kind = kind;
+    cycle.stopped = false;
+    cycle.was_armed = governor_armed();
+    cycle.last = STEPPER_CYCLE_NONE;
+    arm(false);
+}
+
+void cycle_forget(void) {
+    if (cycle.kind != STEPPER_CYCLE_NONE) {
+        cycle_end(CYCLE_STOPPED, 0, 0.0);
+    }
+    cycle.last = STEPPER_CYCLE_NONE;
+}
+
+void cycle_stop(void) {
+    cycle.stopped = true;
+}
+
+void cycle_end(cycle_end_t why, uint32_t who, double mm) {
+    uint32_t group;
+    const char *phase = stepper_homing_phase(&group);
+    cycle.last = cycle.kind;
+    cycle.end = why;
+    cycle.end_axes = (uint8_t)(who != 0 ? who : group);
+    cycle.end_mm = (float)mm;
+    cycle.end_phase = phase;
+    home_switch_t found = {0};
+    if (cycle.end_axes != 0) {
+        home_config_switch((axis_id_t)__builtin_ctz(cycle.end_axes), &found);
+    }
+    cycle.end_max = found.max;
+    hal_governor_lock();
+    step_isr_latch_disarm();
+    hal_governor_unlock();
+    kinds[cycle.kind].end(why == CYCLE_DONE);
+    cycle.kind = STEPPER_CYCLE_NONE;
+    if (!governor_armed()) {
+        return;
+    }
+    if (cycle.was_armed) {
+        arm(machine.idle == STEPPER_IDLE_DISABLE);
+        return;
+    }
+    hal_governor_lock();
+    governor_disarm();
+    hal_governor_unlock();
+}
+
+void stepper_background(void) {
+    if (cycle.kind == STEPPER_CYCLE_NONE) {
+        return;
+    }
+    machine_follow_stops();
+    if (!governor_armed()) {
+        cycle_end(cycle.stopped ? CYCLE_STOPPED : CYCLE_TRIPPED, 0, 0.0);
+        return;
+    }
+    if (governor_working() || machine_stopping()) {
+        return;
+    }
+    if (cycle.stopped) {
+        cycle_end(CYCLE_STOPPED, 0, 0.0);
+        return;
+    }
+    kinds[cycle.kind].advance();
+}
+
+// ---- Moves --------------------------------------------------------------------------------------
+
+void cycle_move(const int32_t target[AXIS_COUNT], double feed, uint32_t pins, uint32_t levels) {
+    stepper_move_t move = {
+        .feed = feed * 100.0 / machine.feed_override,
+        .corner = STEPPER_CORNER_STOP,
+    };
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        move.target[axis] = axis_from_steps(axis, target[axis]);
+    }
+    if (pins != 0) {
+        hal_governor_lock();
+        step_isr_latch_arm(pins, levels, limits_latch_samples());
+        hal_governor_unlock();
+    }
+    moves_push_line(&move, target);
+    hal_governor_request();
+}
+
+uint32_t cycle_moved(int32_t steps[AXIS_COUNT]) {
+    uint32_t pins;
+    hal_governor_lock();
+    bool latched = step_isr_latched(steps, &pins);
+    step_isr_latch_disarm();
+    hal_governor_unlock();
+    return latched ? pins : 0;
+}
+
+void cycle_settle(void) {
+    moves_push_dwell(SETTLE_TICKS);
+    hal_governor_request();
+}
+
+// ---- The result ---------------------------------------------------------------------------------
+
+static void letters_of(uint32_t mask, char text[STEPPER_HOME_AXES + 1]) {
+    unsigned length = 0;
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        if ((mask >> axis) & 1) {
+            text[length++] = STEPPER_AXIS_LETTERS[axis];
+        }
+    }
+    text[length] = '\0';
+}
+
+// The first %s: the axes, the second: what they were doing or which switch.
+static const char *const homing_texts[] = {
+    [CYCLE_STOPPED] = "%s stopped while %s",
+    [CYCLE_TRIPPED] = "%s ended by an emergency stop or a limit switch while %s",
+    [CYCLE_TOO_FAR] = "%s failed: its position is too far from zero for more travel",
+};
+
+static const char *const probing_texts[] = {
+    [CYCLE_STOPPED] = "stopped",
+    [CYCLE_TRIPPED] = "ended by an emergency stop or a limit switch",
+    [CYCLE_NO_CONTACT] = "failed: no contact before the target",
+    [CYCLE_CONTACT_KEPT] = "failed: contact not lost before the target",
+    [CYCLE_CONTACT_BEFORE] = "failed: the probe has contact already",
+    [CYCLE_NO_CONTACT_BEFORE] = "failed: the probe has no contact to lose",
+};
+
+static err_t raise_homing(void) {
+    char letters[STEPPER_HOME_AXES + 1];
+    letters_of(cycle.end_axes, letters);
+    if (cycle.end != CYCLE_NEVER_CLOSED && cycle.end != CYCLE_NEVER_OPENED) {
+        return err_raise(ERR_HOMING_FAILED, homing_texts[cycle.end], letters, cycle.end_phase);
+    }
+    return err_raise(ERR_HOMING_FAILED, "%s failed: the switch %s_%s %s %.4g mm while %s", letters,
+                     letters, cycle.end_max ? "MAX" : "MIN",
+                     cycle.end == CYCLE_NEVER_CLOSED ? "never closed within"
+                                                     : "did not open within",
+                     (double)cycle.end_mm, cycle.end_phase);
+}
+
+err_t stepper_cycle_result(void) {
+    if (cycle.last == STEPPER_CYCLE_NONE || cycle.end == CYCLE_DONE) {
+        return ERR_OK;
+    }
+    if (cycle.last == STEPPER_CYCLE_HOMING) {
+        return raise_homing();
+    }
+    return err_raise(ERR_PROBING_FAILED, "%s", probing_texts[cycle.end]);
+}

@@ -1,0 +1,47 @@
+// Cycles: what homing and probing have in common. One at a time is under way; at each standstill
+// the next move of it is started, by stepper_background(). Inside stepper/ only. Context: main
+// loop.
+#ifndef STEPPER_CYCLE_H
+#define STEPPER_CYCLE_H
+
+#include "stepper/stepper_homing.h"
+
+// Why a cycle failed; each has its text in cycle.c. The homing of an axis:
+typedef enum {
+    CYCLE_DONE,
+    CYCLE_STOPPED,        // somebody asked for a stop
+    CYCLE_TRIPPED,        // an emergency stop or a limit switch
+    CYCLE_TOO_FAR,        // steps do not fit
+    CYCLE_NEVER_CLOSED,   // the switch, within so many mm
+    CYCLE_NEVER_OPENED,   // the same
+    CYCLE_NO_CONTACT,     // the probe, before the target
+    CYCLE_CONTACT_KEPT,   // the same, probing away
+    CYCLE_CONTACT_BEFORE, // when probing was to begin
+    CYCLE_NO_CONTACT_BEFORE
+} cycle_end_t;
+
+// Begins: `kind` is under way; what is queued is executed first, drivers stay on meanwhile.
+void cycle_begin(stepper_cycle_t kind);
+
+// Ends it. `who` (axes; 0: those that move now) and `mm` are part of the message of some ends.
+void cycle_end(cycle_end_t why, uint32_t who, double mm);
+
+// Someone wants motion to stop: the cycle ends at the standstill.
+void cycle_stop(void);
+
+// INIT and CLOSE: no cycle, and none before.
+void cycle_forget(void);
+
+// ---- Moves of a cycle; the machine is at rest ---------------------------------------------------
+
+// A line to `target` steps, at `feed` units/min whatever the override says. With `pins` it ends, by
+// braking, as soon as one of them has its level of `levels`.
+void cycle_move(const int32_t target[AXIS_COUNT], double feed, uint32_t pins, uint32_t levels);
+
+// Behind such a move: the pins that ended it, and where the motors were then. 0: none did.
+uint32_t cycle_moved(int32_t steps[AXIS_COUNT]);
+
+// Stands still for a while, until contacts have stopped bouncing.
+void cycle_settle(void);
+
+#endif
