@@ -4,6 +4,7 @@
 #include "basic_cmds/com.h"
 #include "basic_cmds/control.h"
 #include "basic_cmds/gcode_lines.h"
+#include "basic_cmds/homing.h"
 #include "basic_cmds/i2c.h"
 #include "basic_cmds/safety.h"
 #include "basic_cmds/setpin.h"
@@ -14,13 +15,8 @@
 #define CTRL_R 18
 
 const basic_rows_t *const basic_cmds_tables[] = {
-    &stepper_config_rows,
-    &stepper_control_rows,
-    &stepper_gcode_rows,
-    &stepper_report_rows,
-    &stepper_safety_rows,
-    &pin_rows,
-    &bus_rows,
+    &stepper_config_rows, &stepper_control_rows, &stepper_gcode_rows, &stepper_homing_rows,
+    &stepper_report_rows, &stepper_safety_rows,  &pin_rows,           &bus_rows,
 };
 const size_t basic_cmds_table_count = COUNT_OF_ARRAY(basic_cmds_tables);
 
@@ -37,6 +33,7 @@ void basic_cmds_clear(void) {
 void basic_cmds_background(void) {
     setpin_background();
     com_background();
+    homing_background();
     gcode_lines_background();
     safety_background();
 }

@@ -7,6 +7,7 @@
 extern const basic_rows_t stepper_config_rows;
 extern const basic_rows_t stepper_control_rows;
 extern const basic_rows_t stepper_gcode_rows;
+extern const basic_rows_t stepper_homing_rows;
 extern const basic_rows_t stepper_report_rows;
 extern const basic_rows_t stepper_safety_rows;
 extern const basic_rows_t pin_rows;

@@ -1,0 +1,145 @@
+// STEPPER HOME, HOME ORDER, HOME RUN, PROBE, PEEK(STEPPER PROBE ...). Context: main loop.
+#include "basic_cmds/homing.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
+
+#include "gcode/gcode.h"
+#include "stepper/stepper.h"
+#include "stepper/stepper_homing.h"
+
+// Homing that STEPPER HOME RUN has begun: no statement waits for it.
+static bool untold;
+
+static double number_or_default(const basic_arg_t *arg) {
+    return arg->given ? arg->number : (double)NAN;
+}
+
+err_t homing_configure(const basic_arg_t *args, size_t count) {
+    (void)count;
+    stepper_home_t home = {
+        .end = STEPPER_HOME_AUTO,
+        .seek = number_or_default(&args[HOME_SEEK]),
+        .latch = number_or_default(&args[HOME_LATCH]),
+        .pull_off_mm = number_or_default(&args[HOME_PULL_OFF]),
+        .max_travel_mm = number_or_default(&args[HOME_TRAVEL]),
+        .position_mm = number_or_default(&args[HOME_POSITION]),
+    };
+    if (args[HOME_END].given) {
+        home.end = args[HOME_END].integer == 0 ? STEPPER_HOME_MIN : STEPPER_HOME_MAX;
+    }
+    return stepper_home_config((axis_id_t)args[HOME_AXIS].integer, &home);
+}
+
+// The axis of a letter; STEPPER_HOME_AXES: none that is homed.
+static unsigned axis_of(char letter) {
+    unsigned axis = 0;
+    while (axis < STEPPER_HOME_AXES &&
+           STEPPER_AXIS_LETTERS[axis] != (char)toupper((unsigned char)letter)) {
+        axis++;
+    }
+    return axis;
+}
+
+static err_t bad_axis(char letter) {
+    return err_raise(ERR_ARGUMENT, "axes: '%c' is none that is homed (valid is X, Y and Z)",
+                     letter);
+}
+
+// Groups of letters, one for each argument or with commas between; blanks do not matter.
+err_t homing_order(const basic_arg_t *args, size_t count) {
+    uint8_t groups[STEPPER_HOME_AXES] = {0};
+    uint32_t seen = 0;
+    size_t used = 0;
+    for (size_t i = 0; i < count; i++) {
+        const basic_text_t *text = &args[i].text;
+        for (size_t n = 0; n < text->length; n++) {
+            char letter = text->text[n];
+            unsigned axis = axis_of(letter);
+            if (letter == ' ' || letter == ',') {
+                used += letter == ',' && used < STEPPER_HOME_AXES && groups[used] != 0;
+                continue;
+            }
+            if (axis == STEPPER_HOME_AXES) {
+                return bad_axis(letter);
+            }
+            if ((seen >> axis) & 1) {
+                return err_raise(ERR_HOME_ORDER, NULL);
+            }
+            seen |= 1u << axis;
+            groups[used] |= (uint8_t)(1u << axis);
+        }
+        used += used < STEPPER_HOME_AXES && groups[used] != 0;
+    }
+    return stepper_home_order(groups);
+}
+
+err_t homing_run(const basic_arg_t *args, size_t count) {
+    (void)count;
+    const basic_text_t *text = &args[0].text;
+    uint32_t axes = 0;
+    for (size_t n = 0; args[0].given && n < text->length; n++) {
+        unsigned axis = axis_of(text->text[n]);
+        if (axis == STEPPER_HOME_AXES) {
+            return bad_axis(text->text[n]);
+        }
+        axes |= 1u << axis;
+    }
+    err_t err = stepper_home(axes);
+    untold = untold || err == ERR_OK;
+    return err;
+}
+
+err_t homing_probe_pin(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return stepper_probe_pin((uint8_t)args[0].integer, args[1].integer != 0);
+}
+
+err_t homing_peek_probe(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    (void)count;
+    int64_t what = args[0].integer;
+    double position[AXIS_COUNT];
+    bool changed = stepper_probed(position);
+    if (what >= AXIS_COUNT) {
+        bool value = what == AXIS_COUNT ? changed : stepper_probe_contact();
+        *result = (basic_value_t){.type = BASIC_INTEGER, .integer = value};
+        return ERR_OK;
+    }
+    axis_id_t axis = (axis_id_t)what;
+    if (!stepper_axis_configured(axis)) {
+        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
+    }
+    *result = (basic_value_t){.type = BASIC_FLOAT, .number = position[axis] - gcode_offset(axis)};
+    return ERR_OK;
+}
+
+// ---- The end of a cycle -------------------------------------------------------------------------
+
+void homing_background(void) {
+    stepper_background();
+    if (untold && stepper_cycle() == STEPPER_CYCLE_NONE) {
+        untold = false;
+        if (stepper_cycle_result() != ERR_OK) {
+            basic_notice("%s", err_message());
+        }
+    }
+}
+
+void homing_print_status(void) {
+    uint32_t axes;
+    const char *doing = stepper_homing_phase(&axes);
+    if (stepper_cycle() == STEPPER_CYCLE_PROBING) {
+        basic_printf("Probing\n");
+    }
+    if (stepper_cycle() != STEPPER_CYCLE_HOMING) {
+        return;
+    }
+    basic_printf("Homing ");
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        if ((axes >> axis) & 1) {
+            basic_printf("%c", STEPPER_AXIS_LETTERS[axis]);
+        }
+    }
+    basic_printf(": %s\n", doing);
+}
