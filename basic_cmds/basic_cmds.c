@@ -6,9 +6,11 @@
 #include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/homing.h"
 #include "basic_cmds/i2c.h"
+#include "basic_cmds/job.h"
 #include "basic_cmds/safety.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
+#include "gcode/gcode_job.h"
 #include "stepper/stepper_safety.h"
 
 #define CTRL_F 6
@@ -36,6 +38,7 @@ void basic_cmds_background(void) {
     homing_background();
     gcode_lines_background();
     safety_background();
+    job_background();
 }
 
 void basic_cmds_break(void) {
@@ -52,8 +55,12 @@ void basic_cmds_error(void) {
 err_t basic_cmds_may_restart(void) {
     stepper_status_t status;
     stepper_status(&status);
-    bool active = status.moving || stepper_active() > 0;
+    bool active = status.moving || stepper_active() > 0 || gcode_job_runs();
     return active ? err_raise(ERR_STEPPER_BUSY, "%s", "") : ERR_OK;
+}
+
+bool basic_cmds_job_runs(void) {
+    return gcode_job_runs();
 }
 
 bool basic_cmds_control(char c) {

@@ -28,6 +28,9 @@ void basic_cmds_error(void);
 // Refuses a restart while motion is active or queued.
 err_t basic_cmds_may_restart(void);
 
+// A G-code file is being carried out in the background.
+bool basic_cmds_job_runs(void);
+
 // Ctrl-F is feed hold, Ctrl-R resumes. False while there is nothing they could act on, and for all
 // other characters.
 bool basic_cmds_control(char c);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "basic_cmds/job.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
@@ -98,7 +99,10 @@ err_t control_jog(const basic_arg_t *args, size_t count) {
     if (wanted->text.length > 0) {
         distance = wanted->integer == JOG_DOWN ? -(double)INFINITY : (double)INFINITY;
     }
-    return stepper_jog((axis_id_t)args[JOG_AXIS].integer, distance, args[JOG_FEED].number);
+    err_t err = job_check_free();
+    return err != ERR_OK
+               ? err
+               : stepper_jog((axis_id_t)args[JOG_AXIS].integer, distance, args[JOG_FEED].number);
 }
 
 err_t control_jog_stop(const basic_arg_t *args, size_t count) {

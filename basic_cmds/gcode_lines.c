@@ -3,7 +3,9 @@
 
 #include <ctype.h>
 
+#include "basic_cmds/job.h"
 #include "gcode/gcode.h"
+#include "gcode/gcode_job.h"
 #include "stepper/rules.h"
 
 #define POLL_US 1000u
@@ -27,7 +29,8 @@ static err_t finish(err_t err) {
 
 err_t gcode_lines_text(const basic_arg_t *args, size_t count) {
     (void)count;
-    return finish(gcode_line(args[0].text.text, args[0].text.length));
+    err_t err = job_check_free();
+    return err != ERR_OK ? err : finish(gcode_line(args[0].text.text, args[0].text.length));
 }
 
 // A code such as G1 as one word of the command.
@@ -46,11 +49,12 @@ static err_t read_code(const basic_text_t *code, gcode_word_t *word) {
 err_t gcode_lines_words(const basic_arg_t *args, size_t count) {
     gcode_word_t words[GCODE_WORDS_MAX];
     size_t used = 0;
-    if (args[0].text.length > 0) {
-        err_t err = read_code(&args[0].text, &words[used++]);
-        if (err != ERR_OK) {
-            return err;
-        }
+    err_t err = job_check_free();
+    if (err == ERR_OK && args[0].text.length > 0) {
+        err = read_code(&args[0].text, &words[used++]);
+    }
+    if (err != ERR_OK) {
+        return err;
     }
     for (size_t i = 1; i + 1 < count; i += 2) {
         const basic_text_t *name = &args[i].text;
@@ -103,7 +107,7 @@ err_t gcode_lines_optional_stop(const basic_arg_t *args, size_t count) {
 
 void gcode_lines_background(void) {
     gcode_background();
-    if (!lines.waiting && gcode_failure() != ERR_OK) {
+    if (!lines.waiting && !gcode_job_runs() && gcode_failure() != ERR_OK) {
         basic_notice("Error: %s", err_message());
     }
 }

@@ -5,6 +5,7 @@
 
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
+#include "gcode/gcode_job.h"
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
 #include "stepper/stepper_outputs.h"
@@ -122,6 +123,13 @@ static void print_queue(const stepper_status_t *status) {
                  (unsigned)status->executed, (unsigned)status->underruns);
 }
 
+static void print_job(void) {
+    if (gcode_job_runs()) {
+        basic_printf("G-code file: line %u, %d %% done\n", (unsigned)gcode_job_line(),
+                     gcode_job_percent());
+    }
+}
+
 err_t report_status(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
@@ -132,6 +140,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
         return ERR_OK;
     }
     print_motion(&status);
+    print_job();
     print_queue(&status);
     basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
@@ -199,6 +208,12 @@ static double peek_position(axis_id_t axis) {
     return neat(gcode_work_position(axis), 1.0 / config.steps_per_unit);
 }
 
+// Also while a file or a line waits for room or for what it has started.
+static int64_t activity(void) {
+    int active = stepper_active();
+    return active == 0 && (gcode_busy() || gcode_job_runs()) ? 1 : active;
+}
+
 err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) {
     (void)count;
     int64_t what = args[0].integer;
@@ -214,7 +229,7 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
         *result = (basic_value_t){.type = BASIC_FLOAT, .number = stepper_speed()};
         return ERR_OK;
     }
-    const int64_t values[] = {stepper_active(), stepper_status_bits(), stepper_blocks_free()};
+    const int64_t values[] = {activity(), stepper_status_bits(), stepper_blocks_free()};
     *result = (basic_value_t){.type = BASIC_INTEGER, .integer = values[what - AXIS_COUNT]};
     return ERR_OK;
 }

@@ -1,5 +1,6 @@
 // Rows of the commands that take G-code. Context: main loop.
 #include "basic_cmds/gcode_lines.h"
+#include "basic_cmds/job.h"
 #include "basic_cmds/row_args.h"
 #include "basic_cmds/tables.h"
 
@@ -32,6 +33,10 @@ static const basic_arg_spec_t optional_stop_args[] = {
      .help = "1: M1 pauses as M0 does, 0: it does nothing"},
 };
 
+static const basic_arg_spec_t file_args[] = {
+    {"name$", BASIC_ARG_TEXT, .help = "a G-code file of A:"},
+};
+
 static const basic_command_t commands[] = {
     {"STEPPER GC", ARGS(gc_args), gcode_lines_text, "Queues a line of G-code"},
     {"STEPPER GS", ARGS(gs_args), gcode_lines_text, "Queues a line of G-code from a string"},
@@ -43,6 +48,15 @@ static const basic_command_t commands[] = {
      "Says what becomes of G-code lines that begin with /"},
     {"STEPPER OPTIONALSTOP", ARGS(optional_stop_args), gcode_lines_optional_stop,
      "Says whether M1 pauses"},
+    {"STEPPER FILE", ARGS(file_args), job_file,
+     "Carries a G-code file out in the background; HOLD, RESUME, OVERRIDE and STOP act on it"},
 };
 
-const basic_rows_t stepper_gcode_rows = {COMMANDS(commands)};
+static const basic_function_t functions[] = {
+    {"PEEK", "STEPPER LINE", .evaluate = job_line,
+     .help = "Line of the G-code file that is being executed, or was last"},
+    {"PEEK", "STEPPER PERCENT", .evaluate = job_percent,
+     .help = "How much of the G-code file has been executed"},
+};
+
+const basic_rows_t stepper_gcode_rows = {COMMANDS(commands), FUNCTIONS(functions)};

@@ -32,9 +32,11 @@ static void start_basic(void) {
 // Motion that is under way when input or program end is carried out to its end, unless it is held.
 static void wait_until_idle(void) {
     stepper_status_t status;
-    for (stepper_status(&status); status.moving && !status.holding; stepper_status(&status)) {
+    stepper_status(&status);
+    while ((status.moving || basic_cmds_job_runs()) && !status.holding) {
         hal_idle(hal_time_us() + 1000);
         basic_cmds_background();
+        stepper_status(&status);
     }
 }
 

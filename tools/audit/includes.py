@@ -23,7 +23,7 @@ ALLOWED: dict[str, list[str]] = {
     "firmware/io": ["firmware/base", "firmware/hal"],
     "stepper": ["firmware/base", "firmware/hal"],
     "tmc22xx": ["firmware/base", "firmware/hal"],
-    "gcode": ["firmware/base", "stepper"],
+    "gcode": ["firmware/base", "firmware/files", "stepper"],
     "basic_cmds": [
         "firmware/base",
         "firmware/basic",
@@ -62,6 +62,7 @@ ALSO_FACES = {
     "stepper/stepper_check.h",
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
+    "gcode/gcode_job.h",
     "stepper/stepper_outputs.h",
     "stepper/stepper_safety.h",
 }

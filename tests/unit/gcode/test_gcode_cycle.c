@@ -15,15 +15,15 @@ static struct {
     char text[8192];
     size_t length;
     unsigned count;
-    unsigned room;  // entries that it still takes
-    double lowest;  // Z that it allows
+    unsigned room; // entries that it still takes
+    double lowest; // Z that it allows
     double place[AXIS_COUNT];
     uint32_t drops;
 } sink;
 
 static void note(const char *format, double a, double b, double c) {
-    sink.length += (size_t)snprintf(sink.text + sink.length, sizeof sink.text - sink.length, format,
-                                    a, b, c);
+    sink.length +=
+        (size_t)snprintf(sink.text + sink.length, sizeof sink.text - sink.length, format, a, b, c);
 }
 
 static void target(double place[AXIS_COUNT]) {
@@ -85,8 +85,10 @@ void setUp(void) {
     sink.room = NO_LIMIT;
     sink.lowest = -100;
     const stepper_init_t init = {0.05, 32, PINS_NONE, false};
-    const stepper_axis_t axis = {.enable_gpio = PINS_NONE, .steps_per_unit = 80,
-                                 .max_velocity = 6000, .max_acceleration = 500,
+    const stepper_axis_t axis = {.enable_gpio = PINS_NONE,
+                                 .steps_per_unit = 80,
+                                 .max_velocity = 6000,
+                                 .max_acceleration = 500,
                                  .home_backoff_mm = 3};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_init(&init));
     for (axis_id_t i = 0; i < AXIS_COUNT; i++) {

@@ -1,0 +1,44 @@
+; LightBurn 1.5.02
+; GRBL device profile, current position
+; Bounds: X0 Y0 to X30 Y20
+G00 G17 G40 G21 G54
+G91
+M4
+; Cut @ 2400 mm/min, 80% power
+M8
+G0X5Y5
+; Layer C01
+G1X4S800F2400
+Y3
+X-4
+Y-3S400
+G1S0
+G0X7
+G1X4S800
+Y3
+X-4
+Y-3S400
+G1S0
+G0X7
+G1X4S800
+Y3
+X-4
+Y-3S400
+G1S0
+G0X7
+; Cut @ 1800 mm/min, 100% power
+G0X-18Y8
+M3
+; Layer C02
+G3X3Y3I0J3S1000F1800
+X-3Y3I-3J0
+X-3Y-3I0J-3
+X3Y-3I3J0S600
+M5
+M9
+G1S0
+M5
+G90
+; return to starting pos
+G0X0Y0
+M2
