@@ -1,13 +1,13 @@
-// Canned cycles: G73, G81, G82 and G83 as a sequence of moves and dwells. Inside gcode/ only. Context:
-// main loop.
+// Canned cycles: G73, G81, G82 and G83 as a sequence of moves and dwells. Inside gcode/ only.
+// Context: main loop.
 //
-// gcode_cycle_begin() gets a line whose words have passed the checks of gcode_check.c: the motion is
-// a cycle, all lengths are in mm and P in ms, at least one axis word is there, plane and feed mode fit. It checks
-// what only the cycle knows (words that are missing or out of range, R below Z), and fills in
-// `cycle`. Then gcode_cycle_next() yields one entry after the other until it returns false. First
-// all of them are checked, with a copy of `cycle` (soft limits, reach); if all are right a second
-// run of them is queued, as there is room. So cycle is plain data, and next() depends on nothing
-// else.
+// gcode_cycle_begin() gets a line whose words have passed the checks of gcode_check.c: the motion
+// is a cycle, all lengths are in mm and P in ms, at least one axis word is there, plane and feed
+// mode fit. It checks what only the cycle knows (words that are missing or out of range, R below
+// Z), and fills in `cycle`. Then gcode_cycle_next() yields one entry after the other until it
+// returns false. First all of them are checked, with a copy of `cycle` (soft limits, reach); if all
+// are right a second run of them is queued, as there is room. So cycle is plain data, and next()
+// depends on nothing else.
 #ifndef GCODE_CYCLE_H
 #define GCODE_CYCLE_H
 

@@ -14,13 +14,13 @@
 // An open file with the line that is read; belongs to the caller.
 typedef struct {
     int handle;
-    uint32_t size;   // bytes
-    uint32_t line;   // number of the line, from 1; 0 before the first
-    bool begun;      // a line with something in it was read
-    uint16_t begin;  // of the line in `bytes`
-    uint16_t end;    // of the line
-    uint16_t next;   // where the line behind it begins
-    uint16_t filled; // bytes that were read
+    uint32_t size;                       // bytes
+    uint32_t line;                       // number of the line, from 1; 0 before the first
+    bool begun;                          // a line with something in it was read
+    uint16_t begin;                      // of the line in `bytes`
+    uint16_t end;                        // of the line
+    uint16_t next;                       // where the line behind it begins
+    uint16_t filled;                     // bytes that were read
     char bytes[GCODE_FILE_LINE_MAX + 2]; // a line and its \r\n
 } gcode_file_t;
 

@@ -145,7 +145,8 @@ uint32_t gcode_job_line(void) {
 // Of the bytes that were read, in the proportion of the lines. It never goes back.
 int gcode_job_percent(void) {
     uint32_t line = gcode_job_line();
-    if (job.phase != PHASE_IDLE && job.file.line > 0 && job.file.size > 0 && line <= job.file.line) {
+    if (job.phase != PHASE_IDLE && job.file.line > 0 && job.file.size > 0 &&
+        line <= job.file.line) {
         uint64_t done = (uint64_t)job.read * line / job.file.line;
         int percent = (int)(done * 100 / job.file.size);
         job.percent = percent > job.percent ? percent : job.percent;

@@ -44,9 +44,9 @@ static window_t *window_of(stepper_estimate_t *estimate) {
 
 // ---- Jerk ---------------------------------------------------------------------------------------
 //
-// A change of speed by D takes D / A + A / J instead of D / A, or 2 sqrt(D / J) if A is not reached.
-// It is timed as one with the even acceleration that takes as long. D is the change between the
-// slow corners at both ends of a run of moves and what can be reached between them.
+// A change of speed by D takes D / A + A / J instead of D / A, or 2 sqrt(D / J) if A is not
+// reached. It is timed as one with the even acceleration that takes as long. D is the change
+// between the slow corners at both ends of a run of moves and what can be reached between them.
 
 // Corners passed with less than this part of the speed end a run.
 #define SLOW_CORNER 0.7f

@@ -1,5 +1,5 @@
-// Canned cycles: what entries a line makes, from a recording sink; refusals; lines that do not fit at
-// once.
+// Canned cycles: what entries a line makes, from a recording sink; refusals; lines that do not fit
+// at once.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
