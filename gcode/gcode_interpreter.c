@@ -196,7 +196,7 @@ err_t gcode_interpreter_words(gcode_interpreter_t *in, const gcode_word_t *words
 err_t gcode_interpreter_line(gcode_interpreter_t *in, const char *text, size_t length) {
     gcode_word_t words[GCODE_WORDS_MAX];
     gcode_lexed_t lexed = {.words = words};
-    err_t err = gcode_lexer_split(text, length, in->state.options.block_delete, &lexed);
+    err_t err = gcode_lexer_split(text, length, &in->state.options, &lexed);
     if (err == ERR_OK) {
         err = gcode_interpreter_words(in, words, lexed.count);
     }

@@ -82,11 +82,29 @@ static const char *begin(const char *text, const char *end, bool block_delete,
     return p < end && *p == '%' ? end : p;
 }
 
-err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcode_lexed_t *lexed) {
+// Whether the axis letter that would be the next word names an axis to home, so that nobody asks for
+// its number. A sign needs one all the same.
+static bool names_axis_to_home(const gcode_lexed_t *lexed, const char *p, const char *end,
+                               bool nist) {
+    char letter = lexed->words[lexed->count].letter;
+    if (strchr(STEPPER_AXIS_LETTERS, letter) == NULL || (p < end && (*p == '-' || *p == '+'))) {
+        return false;
+    }
+    for (size_t i = 0; i < lexed->count; i++) {
+        const gcode_word_t *word = &lexed->words[i];
+        if (word->letter == 'G' && (word->value == 28.2 || (word->value == 28.0 && !nist))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+err_t gcode_lexer_split(const char *text, size_t length, const gcode_options_t *options,
+                        gcode_lexed_t *lexed) {
     const char *end = text + length;
     lexed->count = 0;
     lexed->message_length = 0;
-    for (const char *p = begin(text, end, block_delete, lexed); p < end;
+    for (const char *p = begin(text, end, options->block_delete, lexed); p < end;
          p = skip_blanks(p, end, lexed)) {
         if (!isalpha((unsigned char)*p)) {
             return unexpected(*p);
@@ -99,7 +117,12 @@ err_t gcode_lexer_split(const char *text, size_t length, bool block_delete, gcod
         }
         gcode_word_t *word = &lexed->words[lexed->count];
         word->letter = (char)toupper((unsigned char)*p);
-        p = read_number(skip_blanks(p + 1, end, lexed), end, &word->value, lexed);
+        const char *number = skip_blanks(p + 1, end, lexed);
+        p = read_number(number, end, &word->value, lexed);
+        if (p == NULL && names_axis_to_home(lexed, number, end, options->nist)) {
+            word->value = 0.0;
+            p = number;
+        }
         if (p == NULL) {
             return err_raise(ERR_GCODE_MISSING_VALUE, "%c", word->letter);
         }

@@ -20,12 +20,15 @@ from motion_checks import (
     speeds,
 )
 from typed import (
+    ENABLE_X,
     ENABLE_Z,
     READY,
     SET_UP,
     WAIT,
+    X_MAX,
     X_MIN,
     Event,
+    Switch,
     error_of,
     program,
     typed,
@@ -330,6 +333,71 @@ def test_2_16_refused_command_damages_state(tmp_path: Path) -> None:
     assert session.axis("X").end_steps() == 8000
     assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
     assert duration_s(session) == pytest.approx(100 / 100 + 100 / 500, rel=0.03)
+
+
+# ---- 2.17, 2.18: homing --------------------------------------------------------------------------
+
+
+def test_2_17_failed_homing_disables_the_limits(tmp_path: Path) -> None:
+    """Homing that fails under ON ERROR SKIP: the switches still stop the machine behind it."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        SWITCHES,
+        "STEPPER HOME X,,,,,30",
+        "STEPPER RUN",
+        "ON ERROR SKIP : STEPPER GC G28 X : PRINT MM.ERRNO",
+        "STEPPER POSITION HOME",
+        "STEPPER RUN",
+        "STEPPER GC G1 X100 F3000",
+        "PAUSE 4000",
+        "PRINT PEEK(STEPPER STATUS)",
+        switches=[Switch(X_MIN, "X", -500), Switch(X_MAX, "X", 10, below=False)],
+    )
+    assert session.number(-6) != 0
+    assert session.axis("X").steps().max() <= 10 * 80 + 4
+    assert int(session.number()) & 0b1000_0010 == 0b0000_0010
+    assert session.level(ENABLE_X) == 1
+
+
+def test_2_18_homing_starts_at_speed_and_measures_once(tmp_path: Path) -> None:
+    """Ramps within the limits, a fast and a slow approach, a pull-off that frees the switch."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        "STEPPER HWLIMITS GP16",
+        "STEPPER RUN",
+        "STEPPER GC G28 X",
+        "PRINT PEEK(STEPPER X); PEEK(STEPPER STATUS) AND 129",
+        switches=[Switch(X_MIN, "X", -40)],
+    )
+    assert session.errors() == []
+    assert session.numbers() == [0, 128]
+    trace = session.axis("X")
+    assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
+    turns = np.flatnonzero(np.diff(trace.direction))
+    assert len(turns) == 3  # approach, back, approach, pull off
+    fast = np.diff(trace.step_ns[: turns[0]]).min()
+    slow = np.diff(trace.step_ns[turns[1] + 1 : turns[2]]).min()
+    assert slow > 5 * fast
+    assert trace.end_steps() / 80 == pytest.approx(-40 + 3, abs=0.2)
+
+
+def test_2_18_homing_can_be_broken_off(tmp_path: Path) -> None:
+    """Ctrl-C in the approach: it brakes, the prompt is there."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        SWITCHES,
+        "STEPPER RUN",
+        "STEPPER HOME RUN X",
+        "PAUSE 300 : STEPPER STOP",
+        WAIT,
+        "PRINT 6 * 7",
+    )
+    assert session.number() == 42
+    assert 0 < len(session.axis("X").step_ns) < 40 * 80
+    assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
 
 
 # ---- 2.19 to 2.26: errors, programs, timing, numbers ---------------------------------------------

@@ -52,6 +52,9 @@ THERE = {
         [*gc("G0 X3", "G28.1", "G0 X5", "G30.1", "G0 X9", "G30"), WAIT, *gc("G30 P1"), WAIT],
         {"X": 3},
     ),
+    "probing": Feature(
+        ["STEPPER PROBE GP21", *gc("G38.3 Z-1 F300"), "PRINT PEEK(STEPPER PROBE OK)"], {"Z": -1}
+    ),
     "G92.1 to G92.3": Feature(
         [*gc("G92 X5", "G92.2", "G0 X1", "G92.3", "G0 X7", "G92.1", "G0 Y1"), WAIT],
         {"X": 2, "Y": 1},
@@ -100,6 +103,9 @@ THERE = {
     ),
     "coolant": Feature(["STEPPER COOLANT GP19,GP20", *gc("M7", "M8", "M9"), WAIT]),
     "tools": Feature([*gc("T2", "M6", "G0 X1"), "PAUSE 100", "STEPPER RESUME", WAIT], {"X": 1}),
+    "homing of each axis": Feature(
+        [SWITCHES, "STEPPER HOME X,MAX,1200,60,2,50,100", 'STEPPER HOME ORDER "Z,XY"']
+    ),
     "dwell in seconds": Feature(["STEPPER DIALECT NIST", *gc("G4 P0.1"), WAIT]),
     "one switch only": Feature(["STEPPER HWLIMITS 0,GP17"]),
     "events": Feature(["PRINT PEEK(STEPPER EVENT)"]),

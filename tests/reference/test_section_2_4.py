@@ -9,6 +9,8 @@ from motion_checks import hardest_acceleration
 from typed import (
     AXES,
     ENABLE_X,
+    ENABLE_Z,
+    ESTOP,
     READY,
     SET_UP,
     SPINDLE,
@@ -20,6 +22,8 @@ from typed import (
     Z_MAX,
     Z_MIN,
     Event,
+    Switch,
+    error_of,
     typed,
 )
 
@@ -296,3 +300,24 @@ def test_motion_before_a_trip_was_smooth(tmp_path: Path) -> None:
     session = typed(tmp_path, *SET_UP, ALL_SIX, *START, MOVE, WAIT)
     assert session.end("X") == 50
     assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
+
+
+def test_estop_input_ends_homing(tmp_path: Path) -> None:
+    """Under all circumstances: in the middle of an approach no further step."""
+    session = typed(
+        tmp_path,
+        "STEPPER INIT ,,GP22",
+        *AXES,
+        "STEPPER HWLIMITS GP16,GP17,GP18",
+        "STEPPER RUN",
+        "STEPPER GC G28 X",
+        "PAUSE 500",
+        ASK,
+        switches=[Switch(X_MIN, "X", -100)],
+        events=[Event(0, ESTOP, 1), Event(300, ESTOP, 0)],
+    )
+    assert len(session.axis("X").step_ns) > 0
+    assert session.axis("X").step_ns[-1] <= 300e6 + 10_000
+    assert session.level(ENABLE_Z) == 1
+    assert error_of(session.answers[-3])
+    assert int(session.number()) & 192 == 64

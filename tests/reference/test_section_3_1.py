@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from motion_checks import duration_s, places
-from typed import READY, SET_UP, SPINDLE, WAIT, typed
+from typed import READY, SET_UP, SPINDLE, WAIT, X_MIN, Y_MIN, Z_MIN, Switch, typed
 
 START = ["STEPPER POSITION HOME", "STEPPER RUN"]
 WITH_SPINDLE = [*SET_UP, f"STEPPER SPINDLE GP{SPINDLE}", *START]
@@ -170,3 +170,50 @@ def test_other_codes_are_refused_by_name(form: str, tmp_path: Path) -> None:
     assert len(session.errors()) == 2
     assert "G77" in session.errors()[0]
     assert "M99" in session.errors()[1]
+
+
+# ---- G28 -----------------------------------------------------------------------------------------
+
+SWITCHES = [Switch(X_MIN, "X", -10), Switch(Y_MIN, "Y", -8), Switch(Z_MIN, "Z", -2)]
+
+
+@pytest.mark.parametrize(
+    ("line", "axes"),
+    [
+        ("STEPPER GC G28", "XYZ"),
+        ("STEPPER GC G28 X", "X"),
+        ("STEPPER GC G28 X0", "X"),
+        ("STEPPER GC G28 X1 Z1", "XZ"),
+        ("STEPPER GC G28 Y0 A0", "Y"),
+        ("STEPPER GCODE G28", "XYZ"),
+        ("STEPPER GCODE G28, X, 0", "X"),
+        ("STEPPER GCODE G28, X, 1, Y, 1", "XY"),
+        ('STEPPER GS "G28 Z0"', "Z"),
+    ],
+)
+def test_g28_homes_what_is_named(line: str, axes: str, tmp_path: Path) -> None:
+    """Only these axes move, to their switches and off them; A never does."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        "STEPPER HWLIMITS GP16,GP17,GP18",
+        "STEPPER RUN",
+        line,
+        "FOR i = 1 TO 3 : PRINT PEEK(STEPPER X), PEEK(STEPPER Y), PEEK(STEPPER Z) : NEXT",
+        switches=SWITCHES,
+    )
+    assert session.errors() == []
+    for switch in SWITCHES:
+        moved = session.axis(switch.axis).end_steps() != 0
+        assert moved == (switch.axis in axes), switch.axis
+    assert session.numbers()[:3] == [0, 0, 0]
+    assert len(session.axis("A").step_ns) == 0
+
+
+def test_g28_of_a_alone_homes_nothing(tmp_path: Path) -> None:
+    """A cannot be homed, and nothing else was asked for."""
+    session = typed(
+        tmp_path, *SET_UP, "STEPPER HWLIMITS GP16,GP17,GP18", "STEPPER RUN", "STEPPER GC G28 A0"
+    )
+    assert len(session.errors()) == 1
+    assert all(len(session.axis(name).step_ns) == 0 for name in "XYZA")

@@ -1,0 +1,119 @@
+"""Section 8 of the STEPPER reference: sensorless homing, with DIAG as an active-high input.
+
+What is written to the driver itself is left out; that DIAG rises while the axis pushes against its
+end and falls when it backs off is what the switches of these tests do.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typed import (
+    AXES,
+    ENABLE_X,
+    WAIT,
+    X_MIN,
+    Y_MIN,
+    Z_MIN,
+    Event,
+    Session,
+    Switch,
+    typed,
+)
+
+SET_UP = ["STEPPER INIT", *AXES, "STEPPER HWLIMITS GP16,GP17,GP18,0,0,0,7", "STEPPER RUN"]
+DIAG = [
+    Switch(X_MIN, "X", -20, active_high=True),
+    Switch(Y_MIN, "Y", -12.5, active_high=True),
+    Switch(Z_MIN, "Z", -4, active_high=True),
+]
+PLACES = "PRINT PEEK(STEPPER X), PEEK(STEPPER Y), PEEK(STEPPER Z)"
+STATUS = "PRINT PEEK(STEPPER STATUS)"
+
+
+def homed(folder: Path, *lines: str) -> Session:
+    return typed(folder, *SET_UP, *lines, switches=DIAG)
+
+
+def test_the_recipe_works_as_printed(tmp_path: Path) -> None:
+    """RUN with the position unknown, then G28 with a BASIC comment behind it, then moves."""
+    session = homed(
+        tmp_path,
+        "STEPPER GC G28                            ' run the homing cycle",
+        PLACES,
+        STATUS,
+        "STEPPER GC G1 X5 Y5 Z1 F3000",
+        WAIT,
+        PLACES,
+    )
+    assert session.errors() == []
+    assert session.numbers(-5) == [0, 0, 0]
+    assert int(session.number(-4)) & 128 == 128
+    assert session.numbers() == [5, 5, 1]
+    assert session.level(ENABLE_X) == 0
+
+
+def test_run_arms_with_the_position_unknown(tmp_path: Path) -> None:
+    """Moves other than homing are still refused."""
+    session = homed(tmp_path, "STEPPER GC G1 X5 F600")
+    assert len(session.errors()) == 1
+    assert "position unknown" in session.errors()[0]
+    assert len(session.axis("X").step_ns) == 0
+
+
+def test_each_axis_stands_off_its_end(tmp_path: Path) -> None:
+    """All ended at zero, the same distance from where DIAG rose, in the order Z, X, Y."""
+    session = homed(tmp_path, "STEPPER GC G28", PLACES)
+    assert session.errors() == []
+    for diag in DIAG:
+        trace = session.axis(diag.axis)
+        place = trace.end_steps() / trace.pins.steps_per_unit
+        assert diag.at_mm < place < diag.at_mm + 10, diag.axis
+        assert trace.steps().min() / trace.pins.steps_per_unit > diag.at_mm - 10
+    ends = {name: session.axis(name).step_ns[-1] for name in "XYZ"}
+    begins = {name: session.axis(name).step_ns[0] for name in "XYZ"}
+    assert ends["Z"] < begins["X"]
+    assert ends["X"] < begins["Y"]
+    assert len(session.axis("A").step_ns) == 0
+
+
+def test_the_fast_approach_comes_before_a_slow_one(tmp_path: Path) -> None:
+    """DIAG is met at speed first; a slow pass follows."""
+    session = homed(tmp_path, "STEPPER GC G28 X")
+    trace = session.axis("X")
+    turns = np.flatnonzero(np.diff(trace.direction))
+    assert len(turns) == 3
+    rate = 1e9 / np.diff(trace.step_ns)
+    assert rate[: turns[0]].max() > 5 * rate[turns[1] + 2 : turns[2]].max()
+
+
+def test_the_slow_pass_can_be_skipped(tmp_path: Path) -> None:
+    """A latch feed of 0: the fast approach is the home position, then pull off."""
+    session = homed(tmp_path, "STEPPER HOME X,,,0", "STEPPER GC G28 X", PLACES)
+    assert session.errors() == []
+    trace = session.axis("X")
+    assert len(np.flatnonzero(np.diff(trace.direction))) == 1
+    assert session.numbers()[0] == 0
+
+
+@pytest.mark.parametrize("armed_again", [True, False])
+def test_a_driver_fault_is_a_limit_trip(armed_again: bool, tmp_path: Path) -> None:
+    """DIAG that rises in normal motion: motion halts, drivers off, position unknown."""
+    lines = ["STEPPER POSITION HOME", "STEPPER GC G1 X50 F3000", "PAUSE 1000", STATUS]
+    if armed_again:
+        lines += ["STEPPER POSITION HOME", "STEPPER RUN", "STEPPER GC G1 X5 F3000", WAIT]
+    levels = [Event(0, gpio, 0) for gpio in (X_MIN, Y_MIN, Z_MIN)]
+    events = [*levels, Event(400, Y_MIN, 1), Event(600, Y_MIN, 0)]
+    session = typed(tmp_path, *SET_UP, *lines, events=events)
+    assert session.errors() == []
+    assert "Y_MIN" in session.output
+    steps_ms = session.axis("X").step_ns / 1e6
+    assert not ((steps_ms > 400.04) & (steps_ms < 1000)).any()
+    assert session.level_at(ENABLE_X, 500) == 1
+    status = int(session.number(-5 if armed_again else -1))
+    assert status & 128 == 0
+    if armed_again:
+        assert session.level(ENABLE_X) == 0
+        assert steps_ms[-1] > 1000
