@@ -7,6 +7,7 @@
 #include "basic_cmds/homing.h"
 #include "basic_cmds/i2c.h"
 #include "basic_cmds/job.h"
+#include "basic_cmds/machine_outputs.h"
 #include "basic_cmds/safety.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
@@ -39,6 +40,7 @@ void basic_cmds_background(void) {
     gcode_lines_background();
     safety_background();
     job_background();
+    machine_outputs_background();
 }
 
 void basic_cmds_break(void) {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "basic_cmds/machine_outputs.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"
@@ -44,11 +45,12 @@ static void print_axis(axis_id_t axis) {
 }
 
 static void print_motion(const stepper_status_t *status) {
-    const char *motion = status->stopping  ? "STOPPING"
-                         : status->holding ? "HOLD"
-                         : status->jogging ? "JOG"
-                         : status->moving  ? "ACTIVE"
-                                           : "IDLE";
+    const char *motion = status->stopping   ? "STOPPING"
+                         : stepper_paused() ? "PAUSE"
+                         : status->holding  ? "HOLD"
+                         : status->jogging  ? "JOG"
+                         : status->moving   ? "ACTIVE"
+                                            : "IDLE";
     basic_printf("Armed: %s, motion: %s, position known: %s\n", yes_no(status->armed), motion,
                  yes_no(status->position_known));
 }
@@ -91,32 +93,6 @@ static void print_path_mode(void) {
     basic_printf(", A on arcs: %s\n", gcode_options()->arc_legacy ? "ignored" : "turns along");
 }
 
-static void print_outputs(void) {
-    stepper_outputs_t outputs;
-    stepper_outputs(&outputs);
-    const stepper_spindle_t *spindle = &outputs.spindle;
-    basic_printf("Spindle: %s%s, %s", pins_name(spindle->gpio), spindle->invert ? " inverted" : "",
-                 on_off(outputs.spindle_on));
-    if (spindle->gpio != PINS_NONE && spindle->max_rpm > 0.0) {
-        basic_printf(" %.0f rpm of %.0f to %.0f, PWM %g Hz", outputs.rpm, spindle->min_rpm,
-                     spindle->max_rpm, spindle->pwm_hz);
-    }
-    if (spindle->dir_gpio != PINS_NONE) {
-        basic_printf(", dir %s %s", pins_name(spindle->dir_gpio),
-                     outputs.turn == STEPPER_SPINDLE_CCW ? "CCW" : "CW");
-    }
-    if (spindle->spinup_ms > 0) {
-        basic_printf(", spin-up %u ms", (unsigned)spindle->spinup_ms);
-    }
-    basic_printf("\n");
-    const stepper_coolant_t *coolant = &outputs.coolant;
-    if (coolant->flood_gpio != PINS_NONE || coolant->mist_gpio != PINS_NONE) {
-        basic_printf("Coolant: flood %s %s, mist %s %s%s\n", pins_name(coolant->flood_gpio),
-                     on_off(outputs.flood), pins_name(coolant->mist_gpio), on_off(outputs.mist),
-                     coolant->invert ? ", inverted" : "");
-    }
-}
-
 static void print_queue(const stepper_status_t *status) {
     basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
                  (unsigned)(status->blocks - status->blocks_free), (unsigned)status->blocks,
@@ -151,7 +127,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
     safety_print_status();
-    print_outputs();
+    machine_outputs_report();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         print_axis(axis);
     }

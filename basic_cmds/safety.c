@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "basic_cmds/events.h"
+#include "basic_cmds/machine_outputs.h"
 #include "gcode/gcode.h"
 #include "stepper/stepper_safety.h"
 
@@ -127,6 +128,9 @@ void safety_background(void) {
     while ((event = stepper_next_event()) != STEPPER_EVENT_NONE) {
         if (event == STEPPER_EVENT_ESTOP || event == STEPPER_EVENT_LIMIT) {
             tell_trip();
+        }
+        if (event == STEPPER_EVENT_PAUSED) {
+            machine_outputs_tell_pause();
         }
         hand_on(event);
     }

@@ -15,7 +15,8 @@ static struct {
     stepper_trip_t trip; // the last one
     uint16_t events;     // bit of each that was not taken
     uint32_t drops;
-    uint32_t ends_seen; // of the motions, for STEPPER_EVENT_IDLE
+    uint32_t ends_seen;   // of the motions, for STEPPER_EVENT_IDLE
+    uint32_t pauses_seen; // for STEPPER_EVENT_PAUSED
 } state;
 
 // Grows with each queue entry that is carried out, and when entries are dropped.
@@ -29,6 +30,7 @@ void alarm_reset(void) {
     state.drops = drops;
     machine.alarm = false;
     state.ends_seen = ends();
+    state.pauses_seen = governor_pauses();
 }
 
 // Once, and at once: telling the user may take its time, and a position set until then stays known.
@@ -120,6 +122,10 @@ stepper_event_t stepper_next_event(void) {
     if (idle && ends() != state.ends_seen) {
         state.ends_seen = ends();
         stepper_raise_event(STEPPER_EVENT_IDLE);
+    }
+    if (governor_paused() && governor_pauses() != state.pauses_seen) {
+        state.pauses_seen = governor_pauses();
+        stepper_raise_event(STEPPER_EVENT_PAUSED);
     }
     if (state.events == 0) {
         return STEPPER_EVENT_NONE;

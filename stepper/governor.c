@@ -28,8 +28,9 @@ static struct {
     governor_pins_t pins;
     volatile bool armed;
     volatile bool stopping;
-    volatile bool holding;     // feed hold: brake to a standstill and wait there
-    volatile bool paused;      // the front block holds
+    volatile bool holding; // feed hold: brake to a standstill and wait there
+    volatile bool paused;  // the front block holds
+    volatile uint32_t pauses;
     volatile uint32_t tripped; // inputs that stopped the machine and were not taken yet
     bool trip_moved;
     volatile uint32_t drops;
@@ -105,6 +106,7 @@ static void begin_block(const block_t *block) {
         break;
     case BLOCK_PAUSE:
         governor.paused = true;
+        governor.pauses = governor.pauses + 1;
         governor.holding = true;
         break;
     }
@@ -350,6 +352,10 @@ bool governor_holding(void) {
 
 bool governor_paused(void) {
     return governor.paused && ring_used(&segments.ring) == 0;
+}
+
+uint32_t governor_pauses(void) {
+    return governor.pauses;
 }
 
 bool governor_armed(void) {

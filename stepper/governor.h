@@ -65,6 +65,7 @@ bool governor_armed(void);
 bool governor_stopping(void);
 bool governor_holding(void);
 bool governor_paused(void);       // at a block that holds, and the motors stand
+uint32_t governor_pauses(void);   // times it came to such a block since governor_reset()
 float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()

@@ -62,7 +62,7 @@ static err_t check_spindle(const stepper_spindle_t *config, hal_pwm_t *pwm) {
     if (config->gpio == PINS_NONE) {
         return ERR_OK;
     }
-    if (config->max_rpm > 0.0 && config->min_rpm > config->max_rpm) {
+    if (config->min_rpm > config->max_rpm) {
         return err_raise(ERR_SPINDLE_RANGE, NULL);
     }
     if (config->max_rpm > 0.0 && slices_divide(hal_clock_hz(), config->pwm_hz, false, pwm) == 0.0) {

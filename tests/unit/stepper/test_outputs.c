@@ -7,6 +7,7 @@
 #include "hal/slices.h"
 #include "host_clock.h"
 #include "host_pwm.h"
+#include "stepper/stepper_safety.h"
 
 #define TICK_NS 10000u
 #define DIR_GPIO 16u
@@ -162,7 +163,7 @@ static void test_spin_up_takes_its_time_to_the_tick(void) {
                              start_to_step_ticks(&spindle, STEPPER_SPINDLE_CW, 5000));
     TEST_ASSERT_EQUAL_UINT64(without + 34500, // M3 S0 before: it stood
                              start_to_step_ticks(&spindle, STEPPER_SPINDLE_CCW, 0));
-    spindle.max_rpm = 0; // on and off
+    spindle.max_rpm = spindle.min_rpm = 0; // on and off
     TEST_ASSERT_EQUAL_UINT64(without + 34500,
                              start_to_step_ticks(&spindle, STEPPER_SPINDLE_OFF, 0));
 }
@@ -416,9 +417,12 @@ static void test_pause_holds_in_place(void) {
         bench_move(12, 0, 0, 0, 6000);
         bench_wait_us(100000);
         TEST_ASSERT_FALSE(stepper_paused());
+        TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());
         TEST_ASSERT_EQUAL_UINT32(7, stepper_line());
         bench_wait_us(900000);
+        TEST_ASSERT_EQUAL(STEPPER_EVENT_PAUSED, stepper_next_event());
         for (unsigned n = 0; n < 3; n++) {
+            TEST_ASSERT_EQUAL(STEPPER_EVENT_NONE, stepper_next_event());
             stepper_status_t status;
             stepper_status(&status);
             TEST_ASSERT_TRUE(stepper_paused() && status.holding && status.moving);
