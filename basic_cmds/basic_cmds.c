@@ -33,6 +33,16 @@ void basic_cmds_clear(void) {
     safety_clear();
 }
 
+void basic_cmds_new(void) {
+    if (stepper_active() > 0) {
+        basic_notice("Motion stops for the new program, what was queued is dropped");
+    }
+    control_await_stop();
+    if (stepper_active() >= 0) {
+        stepper_close();
+    }
+}
+
 void basic_cmds_background(void) {
     setpin_background();
     com_background();

@@ -16,6 +16,9 @@ extern const size_t basic_cmds_device_count;
 // A new program or RUN: what the last program made of pins is put back.
 void basic_cmds_clear(void);
 
+// RUN and NEW: motion comes to a controlled stop, then the machine is closed as after power-up.
+void basic_cmds_new(void);
+
 // Tells the user what the machine did without being asked; for the language's background hook.
 void basic_cmds_background(void);
 

@@ -9,6 +9,8 @@
 #include "stepper/rules.h"
 #include "stepper/stepper.h"
 
+#define STOP_LOOK_US 1000u
+
 // The mode may stand with or without the comma that the reference puts before it.
 err_t control_run(const basic_arg_t *args, size_t count) {
     (void)count;
@@ -125,9 +127,25 @@ err_t control_estop(const basic_arg_t *args, size_t count) {
     return err;
 }
 
+// Ctrl-C asks for nothing else than what happens already.
+void control_await_stop(void) {
+    stepper_stop();
+    while (stepper_active() > 0) {
+        uint64_t until_us = hal_time_us() + STOP_LOOK_US;
+        if (!basic_wait(until_us)) {
+            hal_idle(until_us);
+        }
+    }
+}
+
 err_t control_close(const basic_arg_t *args, size_t count) {
     (void)args;
     (void)count;
+    err_t err = rules_check(RULES_DO_STOP);
+    if (err != ERR_OK) {
+        return err;
+    }
+    control_await_stop();
     return stepper_close();
 }
 

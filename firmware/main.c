@@ -16,6 +16,7 @@ static void start_basic(void) {
         .on_break = basic_cmds_break,
         .on_control = basic_cmds_control,
         .on_clear = basic_cmds_clear,
+        .on_new = basic_cmds_new,
         .on_error = basic_cmds_error,
         .may_restart = basic_cmds_may_restart,
         .banner = banner,

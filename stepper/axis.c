@@ -5,6 +5,7 @@
 
 #define SECONDS_PER_MINUTE 60.0
 #define PINS_PER_AXIS 3
+#define ENABLE_ROLE 2
 
 axis_t axes[AXIS_COUNT];
 
@@ -19,7 +20,7 @@ static const char *const owners[AXIS_COUNT][PINS_PER_AXIS] = {
 static void list_pins(const stepper_axis_t *config, uint8_t gpios[PINS_PER_AXIS]) {
     gpios[0] = config->step_gpio;
     gpios[1] = config->dir_gpio;
-    gpios[2] = config->enable_gpio;
+    gpios[ENABLE_ROLE] = config->enable_gpio;
 }
 
 static bool axis_owns(axis_id_t axis, unsigned gpio) {
@@ -53,8 +54,16 @@ static err_t check_pins(axis_id_t axis, const uint8_t gpios[PINS_PER_AXIS]) {
     return ERR_OK;
 }
 
-// A free driver must not wake up by itself, so its enable input is pulled to off until somebody
-// takes the pin.
+// A driver whose pin nobody has must not wake up by itself: its enable input stays pulled to off.
+static void give_back(unsigned role, uint8_t gpio) {
+    if (role == ENABLE_ROLE) {
+        hal_pin_input(gpio, HAL_PULL_UP);
+    } else {
+        hal_pin_release(gpio);
+    }
+    pins_disclaim(gpio);
+}
+
 static void release(axis_id_t axis) {
     if (!axes[axis].configured) {
         return;
@@ -63,12 +72,8 @@ static void release(axis_id_t axis) {
     list_pins(&axes[axis].config, gpios);
     for (unsigned role = 0; role < PINS_PER_AXIS; role++) {
         if (gpios[role] != PINS_NONE) {
-            hal_pin_release(gpios[role]);
-            pins_disclaim(gpios[role]);
+            give_back(role, gpios[role]);
         }
-    }
-    if (axes[axis].config.enable_gpio != PINS_NONE) {
-        hal_pin_input(axes[axis].config.enable_gpio, HAL_PULL_UP);
     }
     axes[axis] = (axis_t){0};
 }

@@ -310,8 +310,10 @@ void args_compile_function(int row) {
     if (found == WORDS_NONE) {
         errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%s", name);
     }
-    lexer_go(behind);
     const basic_function_t *function = rows_function((unsigned)found);
+    if (function->keyword != NULL) {
+        lexer_go(behind);
+    }
     if (!parentheses && function->arg_count > 0) {
         errors_fail(ERR_SYNTAX);
     }

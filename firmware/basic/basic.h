@@ -55,6 +55,9 @@ typedef struct {
     // Variables and all that a program has set are being forgotten: RUN, NEW, a new program. NULL:
     // none.
     void (*on_clear)(void);
+    // RUN or NEW: the next program is to find the product as after power-up. Comes before on_clear;
+    // may wait with basic_wait(). NULL: none.
+    void (*on_new)(void);
     // An error has ended a program (not a line at the prompt), before it is printed. NULL: none.
     void (*on_error)(void);
     // Asked before CPU RESTART and the boot loader: an error that is raised refuses it. NULL:

@@ -11,6 +11,7 @@
 #include "editor.h"
 #include "errors.h"
 #include "events.h"
+#include "files/files.h"
 #include "memory.h"
 #include "messages.h"
 #include "program.h"
@@ -23,6 +24,7 @@
 static struct {
     void (*on_break)(void);
     void (*on_error)(void);
+    void (*on_new)(void);
     bool was_broken;
 } runner;
 
@@ -38,6 +40,7 @@ static void nothing(void) {}
 void runner_start(const basic_config_t *config) {
     runner.on_break = config->on_break != NULL ? config->on_break : nothing;
     runner.on_error = config->on_error != NULL ? config->on_error : nothing;
+    runner.on_new = config->on_new != NULL ? config->on_new : nothing;
 }
 
 void runner_break(void) {
@@ -73,6 +76,21 @@ static err_t run(const uint8_t *code, void (*on_error)(void)) {
 // The program of the file that was named, if one was.
 static err_t load_requested(void) {
     return *requests_file() != '\0' ? messages_report(program_load(requests_file())) : ERR_OK;
+}
+
+// The same for RUN, in front of which the product starts anew, if there is something to run.
+static err_t load_to_run(void) {
+    files_entry_t entry;
+    if (*requests_file() != '\0') {
+        err_t error = files_info(requests_file(), &entry);
+        if (error != ERR_OK) {
+            return messages_report(error);
+        }
+    } else if (program_length() == 0) {
+        return ERR_OK;
+    }
+    runner.on_new();
+    return load_requested();
 }
 
 static void compile_line(void) {
@@ -135,11 +153,16 @@ err_t runner_program(void) {
         if (vm.request != VM_REQUEST_RUN || error != ERR_OK) {
             return error;
         }
-        error = load_requested();
+        error = load_to_run();
         if (error != ERR_OK) {
             return error;
         }
     }
+}
+
+static void run_new(void) {
+    runner.on_new();
+    runner_program();
 }
 
 // With a new program the channels of the old one are gone as its variables are.
@@ -155,7 +178,7 @@ void runner_serve(void) {
     vm.request = VM_REQUEST_NONE;
     switch (request) {
     case VM_REQUEST_RUN:
-        if (load_requested() != ERR_OK) {
+        if (load_to_run() != ERR_OK) {
             break;
         }
         if (program_length() == 0) {
@@ -167,6 +190,7 @@ void runner_serve(void) {
         load_requested();
         break;
     case VM_REQUEST_NEW:
+        runner.on_new();
         end_if_new(program_set_text("", 0));
         break;
     case VM_REQUEST_RECEIVE:
@@ -179,7 +203,7 @@ void runner_serve(void) {
         messages_report(error);
         messages_report(program_compile_stored());
         if (start && error == ERR_OK) {
-            runner_program();
+            run_new();
         }
         break;
     }
@@ -192,7 +216,7 @@ void runner_serve(void) {
         }
         messages_report(error != ERR_OK || start ? error : program_compile_stored());
         if (start && error == ERR_OK) {
-            runner_program();
+            run_new();
         }
         break;
     }

@@ -9,6 +9,7 @@ from test_prompt import CTRL_Z, answers, session
 
 MACHINE = "STEPPER INIT\rSTEPPER AXIS X,GP2,GP3,,,100,6000,500\rSTEPPER POSITION X,0\rSTEPPER RUN\r"
 MOVING = MACHINE + "STEPPER GC G1 X100 F600\r"  # 10 s
+STOPS = "Motion stops for the new program, what was queued is dropped"
 BUSY = "Error : The flash cannot be written while motion is under way"
 
 
@@ -66,10 +67,10 @@ def test_load_and_new_are_for_the_prompt() -> None:
 
 def test_nothing_is_written_while_motion_is_under_way() -> None:
     typed = stored("PRINT 11") + 'SAVE "old"\r' + MOVING + "v=7\rPRINT 0\r"
-    refused = f'SAVE "new"\rNEW\rLOAD "old"\r{stored("PRINT 22")}PRINT v\rRUN\r'
+    refused = f'SAVE "new"\rLOAD "old"\r{stored("PRINT 22")}PRINT v\rRUN\r'
     lines = shown(typed + refused)
-    assert [line for line in lines if line == BUSY] == [BUSY] * 4
-    assert lines[-2:] == [" 7", " 11"]
+    assert [line for line in lines if line == BUSY] == [BUSY] * 3
+    assert lines[-3:] == [" 7", STOPS, " 11"]
     later = "PAUSE 12000\rPRINT 0\r" + 'SAVE "new"\r' + 'LOAD "new",R\r'
     assert shown(typed.replace("PRINT 0\r", "") + later) == [" 11"]
 
@@ -77,7 +78,7 @@ def test_nothing_is_written_while_motion_is_under_way() -> None:
 def test_an_estop_input_does_not_keep_programs_from_being_stored() -> None:
     machine = MACHINE.replace("INIT\r", "INIT ,,GP22\r")
     typed = machine + stored("PRINT 11") + 'SAVE "old"\rPRINT 0\rRUN\rPRINT PEEK(STEPPER ACTIVE)\r'
-    assert shown(typed) == [" 11", " 0"]
+    assert shown(typed) == [" 11", "-1"]
 
 
 def test_a_program_larger_than_the_memory_is_kept(tmp_path: Path) -> None:

@@ -1,5 +1,8 @@
 """A BASIC program that does everything at once while motors move; see SUB and loop."""
 
+BEGINS = "SETTICK 2, tick, 1"
+"""In front of this line of BUSY motion may be started."""
+
 BUSY = """\
 OPTION EXPLICIT
 DIM c%, k%, n%, s$, x, notes$(19) LENGTH 60, v(49)

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 import pytest
-from busy_program import BUSY, DONE
+from busy_program import BEGINS, BUSY, DONE
 
 STEPMITE = Path(__file__).parents[2] / "build" / "host" / "stepmite"
 DEADLINE_S = 120.0  # wall time after which a test counts as hung
@@ -58,7 +58,6 @@ ERRORS = [
     "STEPPER CLEAR",
     "STEPPER JOG X,1",
     "STEPPER OVERRIDE FEED,1000",
-    "NEW",
     "PRINT 1/0",
     'a$="x"+1',
     ") = (",
@@ -80,7 +79,6 @@ FILES = [
     "CLOSE #2",
     'LIST ALL "text"',
 ]
-STORED = ["AUTOSAVE", *BUSY.splitlines(), "\x1a"]
 FOREGROUNDS = {
     "loop": [LOOP],
     "string churn": [CHURN],
@@ -95,7 +93,13 @@ FOREGROUNDS = {
 
 def lines(foreground: list[str]) -> bytes:
     queued = [f'STEPPER GS "{line}"' for line in JOB]
-    typed = [*SETUP, *STORED, *queued, "STEPPER RUN", *foreground, WAIT, "STEPPER STATUS", ""]
+    if foreground == ["RUN"]:  # RUN stops motion, so the program starts it itself
+        machine = [line for line in SETUP if line.startswith("STEPPER")]
+        start = [*machine, *queued, "STEPPER RUN", BEGINS]
+        program = BUSY.replace(BEGINS, "\n".join(start)).splitlines()
+        typed = ["AUTOSAVE", *program, "\x1a", *foreground, WAIT, "STEPPER STATUS", ""]
+        return "\r".join(typed).encode()
+    typed = [*SETUP, *queued, "STEPPER RUN", *foreground, WAIT, "STEPPER STATUS", ""]
     return "\r".join(typed).encode()
 
 

@@ -181,6 +181,7 @@ def test_a_log_beside_motion_that_fits_an_array_is_written_afterwards() -> None:
     """The way the user guide shows."""
     program = """\
 DIM x(100)
+{}
 STEPPER RUN
 STEPPER GC G1 X20 F600
 n = 0
@@ -194,7 +195,9 @@ FOR i = 0 TO n - 1 : PRINT #1, STR$(x(i), 1, 2) : NEXT
 CLOSE #1
 """
     shown = answers(
-        *MACHINE, f"AUTOSAVE\r{program}".replace("\n", "\r") + f"{CTRL_Z}RUN", 'LIST "log"'
+        f"AUTOSAVE\r{program}".replace("{}", "\n".join(MACHINE)).replace("\n", "\r")
+        + f"{CTRL_Z}RUN",
+        'LIST "log"',
     )
     places = [float(line) for line in shown[-18:]]
     assert places == sorted(places)
@@ -205,9 +208,10 @@ def test_what_is_open_when_a_program_ends_is_stored_once_motion_has_ended(tmp_pa
     """Also if the program ends by an error, which stops the motion."""
     for end in ("END", "PRINT 1/0"):
         flash = tmp_path / f"{end[:3]}.bin"
-        program = 'OPEN "log" FOR OUTPUT AS #1\rSTEPPER RUN\rSTEPPER GC G1 X5 F600\r'
+        program = 'OPEN "log" FOR OUTPUT AS #1\r' + "".join(f"{line}\r" for line in MACHINE)
+        program += "STEPPER RUN\rSTEPPER GC G1 X5 F600\r"
         program += f'PAUSE 100\rPRINT #1, "on the way"\r{end}\r'
-        answers(*MACHINE, f"AUTOSAVE\r{program}{CTRL_Z}RUN", WAIT, options=("--flash", flash))
+        answers(f"AUTOSAVE\r{program}{CTRL_Z}RUN", WAIT, options=("--flash", flash))
         assert answers('LIST "log"', options=("--flash", flash)) == ["on the way"]
 
 
@@ -236,6 +240,14 @@ def test_a_full_disk_is_an_error_and_costs_no_other_file() -> None:
 # ---- G-code from a file --------------------------------------------------------------------------
 
 
+def run_file_example() -> str:
+    """The example program, with the machine of these tests."""
+    text = (ROOT / "examples" / "run_file.bas").read_text()
+    before, _, rest = text.partition("SUB machine\n")
+    _, _, after = rest.partition("  STEPPER RUN\n")
+    return "\n".join([before + "SUB machine", *MACHINE, "STEPPER RUN", after])
+
+
 def test_a_gcode_file_is_carried_out(tmp_path: Path) -> None:
     """The example program streams the name plate from A:, and the motors end where they should."""
     sys.path.insert(0, str(ROOT / "tests" / "tools"))
@@ -245,11 +257,10 @@ def test_a_gcode_file_is_carried_out(tmp_path: Path) -> None:
     from stepmite.trace import Edges
 
     lines = (ROOT / "examples" / "nameplate.nc").read_text().splitlines()
-    example = (ROOT / "examples" / "run_file.bas").read_text()
+    example = run_file_example()
     trace = tmp_path / "edges.csv"
     shown = answers(
         *written("part.nc", ["%", *lines]),
-        *MACHINE,
         f"AUTOSAVE\r{example}".replace("\n", "\r") + CTRL_Z + 'SAVE "run_file.bas"',
         'RUN "run_file.bas", "part.nc"',
         "STEPPER STATUS",
@@ -263,10 +274,9 @@ def test_a_gcode_file_is_carried_out(tmp_path: Path) -> None:
 
 
 def test_a_bad_line_of_a_gcode_file_is_named() -> None:
-    example = (ROOT / "examples" / "run_file.bas").read_text()
+    example = run_file_example()
     shown = answers(
         *written("part.nc", ["G1 X1 F600", "X2", "X3 X4", "X5"]),
-        *MACHINE,
         f"AUTOSAVE\r{example}".replace("\n", "\r") + CTRL_Z + 'SAVE "run_file.bas"',
         'RUN "run_file.bas", "part.nc"',
     )
@@ -299,6 +309,6 @@ NEXT
     last = int(shown[-3])
     shown = run(f"IF n = {last} THEN END")
     assert shown[-2:] == [f" {last}", full]
-    move = "STEPPER RUN : STEPPER GC G1 X2 F600 : END"  # closed only when that is done
-    shown = run(f"IF n = {last} THEN {move}", *MACHINE, WAIT)
+    move = " : ".join([*MACHINE, "STEPPER RUN : STEPPER GC G1 X2 F600 : END"])
+    shown = run(f"IF n = {last} THEN {move}", WAIT)  # closed only when that is done
     assert shown[-2:] == ["Stepper armed", full]

@@ -186,7 +186,7 @@ STEPPER INIT
 STEPPER AXIS X, GP6, GP7
 SETPIN GP2, DOUT
 NEW
-SETPIN GP6, DIN
+SETPIN GP6, DIN : PRINT "free"
 """
 
 
@@ -206,7 +206,7 @@ def test_run_and_new_put_back_what_is_the_programs(tmp_path: Path) -> None:
         " 1",
         "Error : Pin GP2 (pin 4) is not set up (use SETPIN)",
         "Stepper initialized, buffer 32",
-        "Error : Pin GP6 (pin 9) is in use by STEPPER X step",
+        "free",
     ]
 
 
