@@ -7,22 +7,17 @@
 #include <string.h>
 
 #include "fuzz_corpus.h"
-#include "fuzz_gcode_lines.h"
+#include "fuzz_gcode_model.h"
 #include "fuzz_machine.h"
 #include "fuzz_random.h"
 #include "fuzz_session.h"
 #include "gcode/gcode.h"
+#include "stepper/stepper_homing.h"
+#include "stepper/stepper_outputs.h"
 #include "stepper/stepper_outputs.h"
 
 #define INPUTS 300
 #define SETTLE_S 20.0 // virtual time for motion to end by itself
-
-static struct {
-    fuzz_gcode_modal_t modal;
-    double target[AXIS_COUNT]; // machine coordinates
-    double offset[AXIS_COUNT];
-    bool stop_pending; // at its end the target will follow the motors
-} model;
 
 // ---- The machine --------------------------------------------------------------------------------
 
@@ -72,9 +67,9 @@ static void set_up(void) {
             configure_axis(axis);
         }
     }
-    model.modal.spindle = fuzz_random_percent(70);
-    model.modal.fine = fuzz_random_percent(30);
-    if (model.modal.spindle) {
+    fuzz_gcode_model.modal.spindle = fuzz_random_percent(70);
+    fuzz_gcode_model.modal.fine = fuzz_random_percent(30);
+    if (fuzz_gcode_model.modal.spindle) {
         stepper_spindle_t spindle = {
             .gpio = 20,
             .dir_gpio = PINS_NONE,
@@ -91,56 +86,6 @@ static void set_up(void) {
         check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
     }
     fuzz_machine_rebase();
-}
-
-// ---- The model ----------------------------------------------------------------------------------
-
-// Where the machine's word is taken: after a stop, and after a line whose meaning the model does
-// not know.
-static void follow_machine(void) {
-    stepper_status_t status;
-    stepper_status(&status);
-    model.stop_pending = status.stopping;
-    stepper_target(model.target);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        model.offset[axis] = gcode_offset(axis);
-    }
-}
-
-static void follow_line(const fuzz_gcode_line_t *line) {
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if (((line->axes >> axis) & 1) == 0) {
-            continue;
-        }
-        if (line->kind == FUZZ_GCODE_OFFSET) {
-            model.offset[axis] = model.target[axis] - line->value[axis];
-        } else {
-            model.target[axis] =
-                line->value[axis] + (line->relative ? model.target[axis] : model.offset[axis]);
-        }
-    }
-    model.modal.relative = line->relative;
-    model.modal.has_feed |= line->feed > 0;
-    if (line->arc) {
-        model.modal.has_motion = false; // not one that a line without G could go on with
-    }
-    if (line->sets_motion) {
-        model.modal.has_motion = true;
-        model.modal.rapid = line->rapid;
-    }
-}
-
-static void check_model(void) {
-    double target[AXIS_COUNT];
-    stepper_target(target);
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        FUZZ_SESSION_CHECK(target[axis] == model.target[axis],
-                           "axis %d: target %.17g, should be %.17g", axis, target[axis],
-                           model.target[axis]);
-        FUZZ_SESSION_CHECK(gcode_offset(axis) == model.offset[axis],
-                           "axis %d: offset %.17g, should be %.17g", axis, gcode_offset(axis),
-                           model.offset[axis]);
-    }
 }
 
 // ---- Sending ------------------------------------------------------------------------------------
@@ -178,6 +123,31 @@ static err_t send(const fuzz_text_t *text) {
     return err;
 }
 
+// Entries of the last line may wait for room, or for the end of probing. What was accepted has to be
+// carried out: only probing may fail. False: it took too long and was stopped.
+static bool finish_line(bool probes) {
+    uint64_t until_us = hal_time_us() + (uint64_t)(SETTLE_S * 1e6);
+    gcode_background();
+    while (gcode_busy() && hal_time_us() < until_us) {
+        check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+        check_ok(stepper_hold(false), "resume");
+        hal_idle(hal_time_us() + 1000);
+        stepper_background();
+        gcode_background();
+    }
+    bool in_time = !gcode_busy();
+    if (!in_time) {
+        stepper_stop();
+        fuzz_machine_settle(SETTLE_S);
+        stepper_background();
+        gcode_background();
+    }
+    FUZZ_SESSION_CHECK(!gcode_busy(), "a line never ends");
+    err_t failure = gcode_failure();
+    FUZZ_SESSION_CHECK(failure == ERR_OK || probes, "an accepted line failed: %s", err_message());
+    return in_time;
+}
+
 // Time for a queue that is full, or a stop that is under way.
 static void make_room(void) {
     check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
@@ -188,14 +158,14 @@ static void make_room(void) {
         stepper_status_t status;
         stepper_status(&status);
         if (status.blocks_free > 0 && !status.stopping) {
-            if (model.stop_pending) {
-                follow_machine();
+            if (fuzz_gcode_model.stop_pending) {
+                fuzz_gcode_model_follow_machine();
             }
             return;
         }
     }
     fuzz_machine_settle(SETTLE_S);
-    follow_machine();
+    fuzz_gcode_model_follow_machine();
 }
 
 static void send_right_line(void) {
@@ -203,39 +173,72 @@ static void send_right_line(void) {
     fuzz_gcode_line_t line;
     double work_position[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        work_position[axis] = model.target[axis] - model.offset[axis];
+        work_position[axis] = fuzz_gcode_model.target[axis] - fuzz_gcode_model_offset(axis);
     }
-    fuzz_gcode_right_line(&text, &line, &model.modal, work_position);
+    fuzz_gcode_right_line(&text, &line, &fuzz_gcode_model.modal, work_position);
     err_t err = send(&text);
     if (err == ERR_GCODE_BUFFER_FULL || err == ERR_STEPPER_STOPPING) {
         make_room();
         err = send(&text);
     }
     check_ok(err, "a right line was refused");
-    follow_line(&line);
-    check_model();
+    bool in_time = finish_line(false);
+    fuzz_gcode_model_follow(&line);
+    if (!in_time) {
+        fuzz_gcode_model_follow_machine();
+    }
+    fuzz_gcode_model_check();
     fuzz_session->moves += line.kind == FUZZ_GCODE_MOVE;
+}
+
+// Whatever goes on ends, pauses as well.
+static void settle_down(void) {
+    do {
+        check_ok(stepper_hold(false), "resume");
+        fuzz_machine_settle(SETTLE_S);
+    } while (stepper_paused());
+}
+
+// The origin that the reader has now is taken over as G92 in the first system.
+static void make_origin_known(void) {
+    static const char *const zeros[] = {"G10 L2 P1 X0", "G10 L2 P1 Y0", "G10 L2 P1 Z0",
+                                        "G10 L2 P1 A0"};
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (stepper_axis_configured(axis)) {
+            for (char system = '1'; system <= '9'; system++) {
+                char text[16];
+                snprintf(text, sizeof text, "%s", zeros[axis]);
+                text[8] = system;
+                check_ok(gcode_line(text, strlen(text)), text);
+            }
+        }
+    }
+    fuzz_gcode_model_clear_origins();
 }
 
 // After a line the model does not understand: modes in force are made known again, and the machine
 // is brought back to where right lines are in reach.
 static void resynchronise(void) {
-    static const char known[] = "G90 G17 G1 F1000";
-    check_ok(gcode_line(known, sizeof known - 1), known);
-    model.modal = (fuzz_gcode_modal_t){.has_motion = true,
-                                       .has_feed = true,
-                                       .spindle = model.modal.spindle,
-                                       .fine = model.modal.fine};
-    follow_machine();
+    static const char known[] = "G90 G91.1 G17 G21 G94 G54 G49 G92.1 G1 F1000";
+    finish_line(true);
+    if (gcode_line(known, sizeof known - 1) != ERR_OK) {
+        settle_down();
+        check_ok(gcode_line(known, sizeof known - 1), known);
+    }
+    gcode_take_end();
+    fuzz_gcode_model.modal = (fuzz_gcode_modal_t){.has_motion = true,
+                                                  .has_feed = true,
+                                                  .spindle = fuzz_gcode_model.modal.spindle,
+                                                  .fine = fuzz_gcode_model.modal.fine};
+    make_origin_known();
+    fuzz_gcode_model_follow_machine();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        if (model.target[axis] < -150 || model.target[axis] > 150 || model.offset[axis] < -100 ||
-            model.offset[axis] > 100) {
-            check_ok(stepper_hold(false), "resume");
-            fuzz_machine_settle(1.0);
+        if (fuzz_gcode_model.target[axis] < -150 || fuzz_gcode_model.target[axis] > 150) {
+            settle_down();
             stepper_clear();
             check_ok(stepper_set_home(), "home");
             gcode_clear_offsets();
-            follow_machine();
+            fuzz_gcode_model_follow_machine();
             fuzz_machine_rebase();
             return;
         }
@@ -278,9 +281,8 @@ static void send_wild_line(void) {
 // ---- What else happens meanwhile ----------------------------------------------------------------
 
 static void settle(void) {
-    check_ok(stepper_hold(false), "resume");
-    fuzz_machine_settle(SETTLE_S);
-    follow_machine();
+    settle_down();
+    fuzz_gcode_model_follow_machine();
 }
 
 // From rest, with second thoughts.
@@ -355,7 +357,7 @@ static void press_a_button(void) {
         }
         break;
     }
-    follow_machine();
+    fuzz_gcode_model_follow_machine();
 }
 
 static void let_time_pass(void) {
@@ -363,16 +365,16 @@ static void let_time_pass(void) {
     while (hal_time_us() < until_us) {
         hal_idle(until_us);
     }
-    if (model.stop_pending) {
-        follow_machine();
+    if (fuzz_gcode_model.stop_pending) {
+        fuzz_gcode_model_follow_machine();
     }
-    check_model();
+    fuzz_gcode_model_check();
 }
 
 void fuzz_gcode_session(void) {
     fuzz_machine_watch();
     set_up();
-    follow_machine();
+    fuzz_gcode_model_follow_machine();
     for (unsigned i = 0; i < INPUTS; i++) {
         if (fuzz_random_percent(60)) {
             send_right_line();

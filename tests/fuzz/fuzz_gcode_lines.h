@@ -12,21 +12,33 @@ typedef enum {
     FUZZ_GCODE_NOTHING,
     FUZZ_GCODE_MOVE,
     FUZZ_GCODE_DWELL,
-    FUZZ_GCODE_OFFSET,
+    FUZZ_GCODE_OFFSET,       // G92
+    FUZZ_GCODE_OFFSET_CLEAR, // G92.1
+    FUZZ_GCODE_SYSTEM,       // G10 L2
+    FUZZ_GCODE_LENGTH,       // G43.1 or G49
     FUZZ_GCODE_SPINDLE
 } fuzz_gcode_kind_t;
+
+#define FUZZ_GCODE_SYSTEMS 9u
 
 // A right line, as it is meant.
 typedef struct {
     fuzz_gcode_kind_t kind;
-    bool sets_motion;   // G0 or G1 in the line
-    bool rapid;         // which
-    bool sets_distance; // G90 or G91
-    bool relative;      // which
-    uint32_t axes;      // bit n: axis n has a word
-    double value[AXIS_COUNT];
-    double feed; // 0: none
-    bool arc;    // G2 or G3, which is then in force
+    bool sets_motion;         // G0 or G1 in the line
+    bool rapid;               // which
+    bool sets_distance;       // G90 or G91
+    bool relative;            // which
+    bool sets_units;          // G20 or G21
+    bool inches;              // which
+    bool sets_system;         // G54..G59.3
+    uint32_t system;          // which, 0..8
+    bool machine;             // G53
+    uint32_t axes;            // bit n: axis n has a word
+    double value[AXIS_COUNT]; // mm or degrees
+    uint32_t table;           // P of G10: 0, or 1 + the system
+    double length_mm;         // of the tool
+    double feed;              // 0: none
+    bool arc;                 // G2 or G3, which is then in force
 } fuzz_gcode_line_t;
 
 // What is in force before the line.
@@ -34,6 +46,8 @@ typedef struct {
     bool has_motion;
     bool rapid;
     bool relative;
+    bool inches;
+    uint32_t system; // 0..8
     bool has_feed;
     bool spindle; // there is a spindle pin
     bool fine;    // moves are very short and fast
