@@ -40,19 +40,12 @@ stepper_cycle_t stepper_cycle(void) {
     return cycle.kind;
 }
 
-static void arm(bool idle_off) {
-    hal_governor_lock();
-    governor_arm(idle_off);
-    hal_governor_request();
-    hal_governor_unlock();
-}
-
 void cycle_begin(stepper_cycle_t kind) {
     cycle.kind = kind;
     cycle.stopped = false;
     cycle.was_armed = governor_armed();
     cycle.last = STEPPER_CYCLE_NONE;
-    arm(false);
+    machine_arm(STEPPER_IDLE_HOLD);
 }
 
 void cycle_forget(void) {
@@ -88,7 +81,7 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm) {
         return;
     }
     if (cycle.was_armed) {
-        arm(machine.idle == STEPPER_IDLE_DISABLE);
+        machine_arm(machine.idle);
         return;
     }
     hal_governor_lock();

@@ -45,12 +45,12 @@ bool machine_stopping(void) {
     return governor_stopping() || governor_drops() != machine.drops_seen;
 }
 
-void machine_arm(void) {
+void machine_arm(stepper_idle_t idle) {
     if (!governor_armed()) {
         limits_override_pressed();
     }
     hal_governor_lock();
-    governor_arm(machine.idle == STEPPER_IDLE_DISABLE);
+    governor_arm(idle == STEPPER_IDLE_DISABLE);
     hal_governor_request();
     hal_governor_unlock();
 }

@@ -32,7 +32,7 @@ void machine_follow_stops(void);
 bool machine_stopping(void);
 
 // Turns the drivers on and lets what is queued be executed.
-void machine_arm(void);
+void machine_arm(stepper_idle_t idle);
 
 // There is motion, or the tick has something to do besides watching the E-STOP input.
 bool machine_executing(void);

@@ -18,7 +18,7 @@ err_t stepper_run(stepper_idle_t idle) {
     err_t err = rules_check(RULES_DO_RUN);
     if (err == ERR_OK) {
         machine.idle = idle;
-        machine_arm();
+        machine_arm(machine.idle);
     }
     return err;
 }

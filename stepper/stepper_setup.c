@@ -118,7 +118,7 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
         machine_follow_motors();
     }
     if (armed) {
-        machine_arm();
+        machine_arm(machine.idle);
     }
     return err;
 }
