@@ -6,9 +6,59 @@ from pathlib import Path
 
 import pytest
 from motion_checks import hardest_acceleration
-from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, WAIT, typed
+from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, SPINDLE, WAIT, typed
 
 MOVE = "STEPPER GC G1 X50 F3000"
+
+
+def test_recover_in_motion(tmp_path: Path) -> None:
+    """A ramp to a standstill, spindle off, queue empty, disarmed; drivers and position stay."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        f"STEPPER SPINDLE GP{SPINDLE}",
+        "STEPPER POSITION HOME",
+        "STEPPER RUN",
+        "STEPPER GC M3",
+        MOVE,
+        "PAUSE 300",
+        "STEPPER RECOVER",
+        "STEPPER STATUS",
+        "PRINT PEEK(STEPPER X); PEEK(STEPPER BUFFER)",
+        "STEPPER GC G1 X60 F6000",
+        "STEPPER RUN",
+        WAIT,
+    )
+    assert session.errors() == []
+    assert "Armed: NO" in session.answers[-5]
+    assert "position known: YES" in session.answers[-5]
+    place, free = session.numbers(-4)
+    assert 5 < place < 30
+    assert free == 64
+    assert session.end("X") == 60
+    assert session.level(SPINDLE) == 0
+    assert session.level(ENABLE_X) == 0
+    assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
+
+
+def test_recover_at_rest(tmp_path: Path) -> None:
+    """Disarms, and the position stays."""
+    session = typed(
+        tmp_path,
+        *READY,
+        "STEPPER GC G1 X5 F6000",
+        WAIT,
+        "STEPPER RECOVER",
+        "STEPPER GC G1 X6 F6000",
+        "PAUSE 500",
+        "PRINT PEEK(STEPPER X)",
+        "STEPPER RUN",
+        WAIT,
+        "PRINT PEEK(STEPPER X)",
+    )
+    assert session.errors() == []
+    assert session.number(-4) == 5
+    assert session.number() == 6
 
 
 def test_enable(tmp_path: Path) -> None:

@@ -104,7 +104,7 @@ THERE = {
     "coolant": Feature(["STEPPER COOLANT GP19,GP20", *gc("M7", "M8", "M9"), WAIT]),
     "tools": Feature([*gc("T2", "M6", "G0 X1"), "PAUSE 100", "STEPPER RESUME", WAIT], {"X": 1}),
     "homing of each axis": Feature(
-        [SWITCHES, "STEPPER HOME X,MAX,1200,60,2,50,100", 'STEPPER HOME ORDER "Z,XY"']
+        [SWITCHES, "STEPPER HOME X,MAX,1200,60,2,50,100", "STEPPER HOME ORDER Z,XY"]
     ),
     "dwell in seconds": Feature(["STEPPER DIALECT NIST", *gc("G4 P0.1"), WAIT]),
     "one switch only": Feature(["STEPPER HWLIMITS 0,GP17"]),
