@@ -118,6 +118,20 @@ def test_figure_with_four_axes(board: Emulator, tmp_path: Path) -> None:
     assert late.max() < TICK_NS / 2, "the rounding must not be a matter of luck"
 
 
+def test_figure_with_another_spindle_speed_in_each_line(board: Emulator, tmp_path: Path) -> None:
+    """Speeds that change in motion, spin-up, coolant: levels are of no matter for the steps."""
+    speeds = [f"{line} S{n * 137 % 10_000}" if n > 3 else line for n, line in enumerate(FIGURE)]
+    lines = [
+        line.replace("SPINDLE GP15", "SPINDLE GP20,,8000,500,,30,GP15")
+        for line in queue(["M8", *speeds[:-1], "M4", "X1 S3000", "M9", "M5"])
+    ]
+    lines.insert(SETUP.index("STEPPER POSITION HOME"), "STEPPER COOLANT GP21")
+    host = host_edges(lines, tmp_path)
+    _, snapped = board_edges(board, lines)
+    assert len(train(host)) > 5000
+    assert_same(host, snapped)
+
+
 def test_figure_while_a_program_is_busy(board: Emulator, tmp_path: Path) -> None:
     """Events, errors, texts, pins and refused writes of the flash: the same edges as at rest."""
     lines = queue(FIGURE)
