@@ -1,13 +1,71 @@
-// STEPPER FILE, and what becomes of the file. Context: main loop.
+// STEPPER FILE, and what becomes of the file; STEPPER CHECK. Context: main loop.
 #include "basic_cmds/job.h"
 
 #include "gcode/gcode_job.h"
+#include "gcode/gcode_survey.h"
 #include "stepper/stepper_safety.h"
 
 err_t job_file(const basic_arg_t *args, size_t count) {
     (void)count;
     return gcode_job_start(args[0].text.text, args[0].text.length);
 }
+
+// ---- Check --------------------------------------------------------------------------------------
+
+static bool go_on(void) {
+    return basic_wait(0);
+}
+
+static void print_axis(axis_id_t axis, const gcode_report_t *report) {
+    const gcode_range_t *work = &report->work[axis];
+    const gcode_range_t *machine = &report->machine[axis];
+    const char *unit = axis == AXIS_A ? "deg" : "mm";
+    basic_printf("%c: %.3f to %.3f %s, machine %.3f to %.3f %s\n", STEPPER_AXIS_LETTERS[axis],
+                 work->low, work->high, unit, machine->low, machine->high, unit);
+}
+
+static void print_report(const gcode_report_t *report) {
+    basic_printf("Lines: %u, moves: %u, pauses: %u\n", (unsigned)report->lines,
+                 (unsigned)report->moves, (unsigned)report->pauses);
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if ((report->axes >> axis) & 1) {
+            print_axis(axis, report);
+        }
+    }
+    unsigned seconds = (unsigned)report->seconds;
+    basic_printf("Time: %u:%02u:%02u (%.2f s)%s\n", seconds / 3600, seconds / 60 % 60, seconds % 60,
+                 report->seconds,
+                 report->homings + report->probings > 0 ? " besides homing and probing" : "");
+}
+
+// The first thing that would be refused becomes the statement's error, behind the report.
+static err_t conclude(err_t err, const gcode_report_t *report) {
+    if (report->beyond_line != 0) {
+        err = err_raise(ERR_SOFT_LIMIT, "%c", STEPPER_AXIS_LETTERS[report->beyond_axis]);
+    }
+    unsigned line = (unsigned)(report->beyond_line != 0 ? report->beyond_line : report->lines);
+    return err == ERR_OK ? ERR_OK : err_raise(ERR_ARGUMENT, "Line %u: %s", line, err_message());
+}
+
+err_t job_check(const basic_arg_t *args, size_t count) {
+    (void)count;
+    gcode_report_t report;
+    void *memory = basic_scratch(GCODE_SURVEY_SIZE);
+    if (memory == NULL) {
+        return err_raise(ERR_NO_MEMORY, NULL);
+    }
+    err_t err = gcode_survey(memory, args[0].text.text, args[0].text.length, go_on, &report);
+    if (report.lines == 0 || basic_break_pending()) {
+        return err;
+    }
+    err_kept_t kept;
+    err_keep(&kept);
+    print_report(&report);
+    err_put_back(&kept);
+    return conclude(err, &report);
+}
+
+// ---- Progress -----------------------------------------------------------------------------------
 
 err_t job_line(const basic_arg_t *args, size_t count, basic_value_t *result) {
     (void)args;

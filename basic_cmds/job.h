@@ -5,6 +5,7 @@
 #include "basic/basic.h"
 
 err_t job_file(const basic_arg_t *args, size_t count);
+err_t job_check(const basic_arg_t *args, size_t count);
 
 // PEEK(STEPPER LINE), PEEK(STEPPER PERCENT)
 err_t job_line(const basic_arg_t *args, size_t count, basic_value_t *result);

@@ -50,6 +50,8 @@ static const basic_command_t commands[] = {
      "Says whether M1 pauses"},
     {"STEPPER FILE", ARGS(file_args), job_file,
      "Carries a G-code file out in the background; HOLD, RESUME, OVERRIDE and STOP act on it"},
+    {"STEPPER CHECK", ARGS(file_args), job_check,
+     "Looks through a G-code file without moving: errors, where it leads, how long it takes"},
 };
 
 static const basic_function_t functions[] = {

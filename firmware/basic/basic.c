@@ -55,6 +55,10 @@ bool basic_wait(uint64_t until_us) {
     return !console_break_pending();
 }
 
+void *basic_scratch(size_t size) {
+    return memory_free() > size + MEMORY_PROMPT_RESERVE ? memory_scratch(size) : NULL;
+}
+
 void basic_wake(void) {
     console_wake();
 }

@@ -126,6 +126,9 @@ bool basic_break_pending(void);
 // if the user pressed Ctrl-C and the statement should end.
 bool basic_wait(uint64_t until_us);
 
+// Memory for the rest of the statement, zeroed and 8-aligned. NULL: there is not so much.
+void *basic_scratch(size_t size);
+
 // For the background hook: there is more to do, so nothing is to sleep before it is called again.
 void basic_wake(void);
 

@@ -63,6 +63,7 @@ ALSO_FACES = {
     "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
     "gcode/gcode_job.h",
+    "gcode/gcode_survey.h",
     "stepper/stepper_outputs.h",
     "stepper/stepper_safety.h",
 }
