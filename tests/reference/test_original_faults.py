@@ -459,6 +459,36 @@ def test_2_19_ctrl_c_stops_the_motors(tmp_path: Path) -> None:
     assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
 
 
+PROGRAM = """\
+STEPPER INIT ,64,GP22
+STEPPER AXIS X,GP2,GP3,GP4,,80,6000,500
+STEPPER SPINDLE GP14
+STEPPER POSITION HOME
+STEPPER RUN
+STEPPER GC M3
+STEPPER GC G1 X20 F3000
+PAUSE 200
+"""
+
+
+def test_2_20_second_run_of_a_program(tmp_path: Path) -> None:
+    """Started again in the middle of its motion: a ramp to a standstill, then all from anew."""
+    session = typed(
+        tmp_path,
+        f"AUTOSAVE\r{PROGRAM}\x1a",
+        "RUN",
+        "RUN",
+        WAIT,
+        "RUN",
+        WAIT,
+        "PRINT PEEK(STEPPER X)",
+    )
+    assert session.errors() == []
+    assert session.number() == 20
+    assert hardest_acceleration(session, "X") < 1.1 * 500 + 4 / 80 / 0.02**2
+    assert 2 * 1600 < len(session.axis("X").step_ns) < 3 * 1600
+
+
 @pytest.mark.parametrize(
     "line", ['SAVE "b.bas"', "VAR SAVE x", "OPTION AUTORUN ON", 'OPEN "f" FOR OUTPUT AS #1']
 )
