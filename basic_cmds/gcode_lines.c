@@ -103,13 +103,67 @@ err_t gcode_lines_optional_stop(const basic_arg_t *args, size_t count) {
     return set_options(&options);
 }
 
+// ---- Report -------------------------------------------------------------------------------------
+
+static void print_path_mode(void) {
+    gcode_path_t path = gcode_path();
+    switch (path.corner) {
+    case STEPPER_CORNER_EXACT:
+        basic_printf("Path mode: G61 exact path");
+        break;
+    case STEPPER_CORNER_STOP:
+        basic_printf("Path mode: G61.1 exact stop");
+        break;
+    case STEPPER_CORNER_CONTINUOUS:
+        basic_printf("Path mode: G64");
+        break;
+    case STEPPER_CORNER_BLEND:
+        basic_printf("Path mode: G64 P%g", path.blend_mm);
+        break;
+    }
+    basic_printf(", A on arcs: %s\n", gcode_options()->arc_legacy ? "ignored" : "turns along");
+}
+
+// Where work zero is, unless that is machine zero.
+static void print_origin(void) {
+    bool moved = false;
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        moved |= gcode_offset(axis) != 0.0;
+    }
+    if (!moved) {
+        return;
+    }
+    basic_printf("Work zero at machine");
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        if (stepper_axis_configured(axis)) {
+            basic_printf(" %c%.3f", STEPPER_AXIS_LETTERS[axis], gcode_offset(axis));
+        }
+    }
+    basic_printf("\n");
+}
+
+void gcode_lines_report(void) {
+    char modes[GCODE_MODES_SIZE];
+    gcode_modes(modes);
+    basic_printf("G-code: %s\n", modes);
+    print_path_mode();
+    print_origin();
+}
+
 // ---- Background ---------------------------------------------------------------------------------
 
 void gcode_lines_background(void) {
+    bool tells = gcode_failed() && !lines.waiting && !gcode_job_runs();
+    if (!gcode_busy() && !tells) {
+        return;
+    }
+    err_kept_t kept; // the statement in the foreground may be about to tell its error
+    err_keep(&kept);
     gcode_background();
-    if (!lines.waiting && !gcode_job_runs() && gcode_failure() != ERR_OK) {
+    if (tells && gcode_failure() != ERR_OK) {
         basic_notice("Error: %s", err_message());
     }
+    err_put_back(&kept);
 }
 
 static void tell(const char *text, size_t length) {

@@ -16,6 +16,9 @@ err_t gcode_lines_dialect(const basic_arg_t *args, size_t count);
 // Takes what lines have left to do on, and tells what became of them.
 void gcode_lines_background(void);
 
+// The lines of STEPPER STATUS.
+void gcode_lines_report(void);
+
 // The system has just been initialised.
 void gcode_lines_reset(void);
 

@@ -3,6 +3,7 @@
 
 #include "basic/basic.h"
 #include "stepper/stepper.h"
+#include "gcode/gcode.h"
 #include "stepper/stepper_outputs.h"
 
 static const char *on_off(bool on) {
@@ -42,5 +43,10 @@ void machine_outputs_background(void) {
 }
 
 void machine_outputs_tell_pause(void) {
-    basic_notice("Paused (Ctrl-R or STEPPER RESUME goes on)");
+    uint32_t tool;
+    if (gcode_take_pause(&tool) && tool != GCODE_NO_TOOL) {
+        basic_notice("Tool %u: change it, then Ctrl-R or STEPPER RESUME", (unsigned)tool);
+    } else {
+        basic_notice("Paused (Ctrl-R or STEPPER RESUME goes on)");
+    }
 }

@@ -1,4 +1,5 @@
 // STEPPER STATUS and PEEK(STEPPER ...). Context: main loop.
+#include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/report.h"
 
 #include <math.h>
@@ -74,25 +75,6 @@ static void print_profile(const stepper_status_t *status) {
     basic_printf("\n");
 }
 
-static void print_path_mode(void) {
-    gcode_path_t path = gcode_path();
-    switch (path.corner) {
-    case STEPPER_CORNER_EXACT:
-        basic_printf("Path mode: G61 exact path");
-        break;
-    case STEPPER_CORNER_STOP:
-        basic_printf("Path mode: G61.1 exact stop");
-        break;
-    case STEPPER_CORNER_CONTINUOUS:
-        basic_printf("Path mode: G64");
-        break;
-    case STEPPER_CORNER_BLEND:
-        basic_printf("Path mode: G64 P%g", path.blend_mm);
-        break;
-    }
-    basic_printf(", A on arcs: %s\n", gcode_options()->arc_legacy ? "ignored" : "turns along");
-}
-
 static void print_queue(const stepper_status_t *status) {
     basic_printf("Buffer: %u of %u used, executed: %u, underruns: %u\n",
                  (unsigned)(status->blocks - status->blocks_free), (unsigned)status->blocks,
@@ -122,7 +104,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
     print_profile(&status);
-    print_path_mode();
+    gcode_lines_report();
     bool asserted = (stepper_status_bits() & STEPPER_STATUS_ESTOP) != 0;
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));

@@ -38,6 +38,10 @@ err_t gcode_failure(void) {
     return gcode_interpreter_failure(&gcode_live);
 }
 
+bool gcode_failed(void) {
+    return gcode_live.failure != ERR_OK;
+}
+
 bool gcode_take_end(void) {
     bool ended = gcode_live.ended;
     gcode_live.ended = false;

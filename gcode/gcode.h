@@ -35,8 +35,15 @@ bool gcode_busy(void);
 // The line homes or probes: who sent it may want to wait for the end, and then ask for its error.
 bool gcode_must_wait(void);
 
-// What became of an accepted line that could not be carried out to its end; told once.
+// What became of an accepted line that could not be carried out to its end; told once. And whether
+// there is something to tell.
 err_t gcode_failure(void);
+bool gcode_failed(void);
+
+// What M0, M1 and M6 wait for, in the order in which the machine comes to them: to be asked each time
+// it pauses. False: it pauses for something else.
+#define GCODE_NO_TOOL UINT32_MAX
+bool gcode_take_pause(uint32_t *tool); // the tool of M6, else GCODE_NO_TOOL
 
 // True once after M2 or M30: the program has ended.
 bool gcode_take_end(void);

@@ -18,6 +18,7 @@ void gcode_interpreter_start(gcode_interpreter_t *interpreter, const gcode_sink_
 // ---- What waits ---------------------------------------------------------------------------------
 
 static void give_up(gcode_interpreter_t *in, err_t failure) {
+    in->failed_waiting = in->waits;
     in->busy = false;
     in->waits = false;
     in->failure = failure;
@@ -38,11 +39,11 @@ static void follow_drops(gcode_interpreter_t *in) {
 static bool await_end(gcode_interpreter_t *in) {
     err_t result;
     if (in->waits && in->sink->ended(&result)) {
-        in->waits = false;
         in->drops = in->sink->drops(); // it ends its moves by dropping what is left of them
         if (result != ERR_OK) {
             give_up(in, result);
         }
+        in->waits = false;
     }
     return in->busy && !in->waits;
 }
@@ -91,7 +92,12 @@ void gcode_interpreter_background(gcode_interpreter_t *in) {
 err_t gcode_interpreter_failure(gcode_interpreter_t *in) {
     err_t failure = in->failure;
     in->failure = ERR_OK;
-    return failure;
+    if (failure == ERR_OK) {
+        return ERR_OK;
+    }
+    err_t anew; // with its text, which others may have replaced since
+    bool known = in->failed_waiting && in->sink->ended(&anew) && anew == failure;
+    return known ? failure : err_raise(failure, "%s", "");
 }
 
 // ---- Lines --------------------------------------------------------------------------------------

@@ -65,6 +65,49 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
     return err;
 }
 
+// ---- Pauses -------------------------------------------------------------------------------------
+
+// Those that are queued, the first one first. A drop forgets them.
+#define PAUSES_MAX 8u
+
+static struct {
+    uint32_t tools[PAUSES_MAX];
+    uint32_t count;
+    uint32_t drops;
+} pauses;
+
+static void follow_drops(void) {
+    if (pauses.drops != stepper_drops()) {
+        pauses.drops = stepper_drops();
+        pauses.count = 0;
+    }
+}
+
+static err_t push_pause(uint32_t tool) {
+    follow_drops();
+    if (pauses.count == PAUSES_MAX) {
+        return err_raise(ERR_GCODE_BUFFER_FULL, NULL);
+    }
+    err_t err = stepper_pause();
+    if (err == ERR_OK) {
+        pauses.tools[pauses.count++] = tool;
+    }
+    return err;
+}
+
+bool gcode_take_pause(uint32_t *tool) {
+    follow_drops();
+    if (pauses.count == 0) {
+        return false;
+    }
+    *tool = pauses.tools[0];
+    pauses.count--;
+    memmove(pauses.tools, pauses.tools + 1, pauses.count * sizeof pauses.tools[0]);
+    return true;
+}
+
+// ---- Entries ------------------------------------------------------------------------------------
+
 static err_t push(const gcode_entry_t *entry) {
     switch (entry->kind) {
     case ENTRY_MOVE:
@@ -80,7 +123,7 @@ static err_t push(const gcode_entry_t *entry) {
     case ENTRY_COOLANT:
         return stepper_coolant_switch(entry->coolant.flood, entry->coolant.mist);
     case ENTRY_PAUSE:
-        return stepper_pause();
+        return push_pause(entry->tool);
     case ENTRY_HOME:
         return stepper_home(entry->axes);
     case ENTRY_END:

@@ -17,8 +17,6 @@ typedef enum {
     ENTRY_END      // M2 and M30; all that belongs to them was pushed before
 } gcode_entry_kind_t;
 
-#define GCODE_NO_TOOL UINT32_MAX
-
 typedef struct {
     gcode_entry_kind_t kind;
     stepper_arc_t arc;

@@ -9,7 +9,8 @@
 fuzz_gcode_model_t fuzz_gcode_model;
 
 double fuzz_gcode_model_offset(axis_id_t axis) {
-    double offset = fuzz_gcode_model.systems[fuzz_gcode_model.modal.system][axis] + fuzz_gcode_model.shift[axis];
+    double offset = fuzz_gcode_model.systems[fuzz_gcode_model.modal.system][axis] +
+                    fuzz_gcode_model.shift[axis];
     return axis == AXIS_Z ? offset + fuzz_gcode_model.length_mm : offset;
 }
 
@@ -39,7 +40,8 @@ static void follow_axis(const fuzz_gcode_line_t *line, axis_id_t axis) {
     } else if (line->machine) {
         fuzz_gcode_model.target[axis] = value;
     } else {
-        fuzz_gcode_model.target[axis] = value + (line->relative ? fuzz_gcode_model.target[axis] : fuzz_gcode_model_offset(axis));
+        fuzz_gcode_model.target[axis] = value + (line->relative ? fuzz_gcode_model.target[axis]
+                                                                : fuzz_gcode_model_offset(axis));
     }
 }
 
