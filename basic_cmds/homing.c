@@ -126,20 +126,59 @@ void homing_background(void) {
     }
 }
 
-void homing_print_status(void) {
-    uint32_t axes;
-    const char *doing = stepper_homing_phase(&axes);
-    if (stepper_cycle() == STEPPER_CYCLE_PROBING) {
-        basic_printf("Probing\n");
-    }
-    if (stepper_cycle() != STEPPER_CYCLE_HOMING) {
-        return;
-    }
-    basic_printf("Homing ");
+static void print_axes(const char *before, uint32_t axes) {
+    basic_printf("%s", before);
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
         if ((axes >> axis) & 1) {
             basic_printf("%c", STEPPER_AXIS_LETTERS[axis]);
         }
     }
-    basic_printf(": %s\n", doing);
+}
+
+// Nothing if it has no switch.
+static void print_axis(axis_id_t axis) {
+    stepper_home_t home;
+    stepper_home_settings(axis, &home);
+    if (!stepper_axis_configured(axis) || home.end == STEPPER_HOME_AUTO) {
+        return;
+    }
+    basic_printf("%c home: %s, seek %.6g mm/min, latch %.6g mm/min, pull-off %.6g mm, "
+                 "travel %.6g mm, ends at %.6g mm\n",
+                 STEPPER_AXIS_LETTERS[axis], home.end == STEPPER_HOME_MAX ? "MAX" : "MIN",
+                 home.seek, home.latch, home.pull_off_mm, home.max_travel_mm, home.position_mm);
+}
+
+static void print_order(void) {
+    uint8_t groups[STEPPER_HOME_AXES];
+    stepper_home_groups(groups);
+    basic_printf("Home order: ");
+    for (unsigned n = 0; n < STEPPER_HOME_AXES && groups[n] != 0; n++) {
+        print_axes(n > 0 ? ", " : "", groups[n]);
+    }
+    basic_printf("\n");
+}
+
+static void print_probe(void) {
+    bool invert;
+    uint8_t gpio = stepper_probe_config(&invert);
+    if (gpio != PINS_NONE) {
+        basic_printf("Probe: %s%s%s\n", pins_name(gpio), invert ? " active high" : "",
+                     stepper_probe_contact() ? ", contact" : "");
+    }
+}
+
+void homing_print_status(void) {
+    uint32_t homing;
+    const char *doing = stepper_homing_phase(&homing);
+    if (stepper_cycle() == STEPPER_CYCLE_HOMING) {
+        print_axes("Homing ", homing);
+        basic_printf(": %s\n", doing);
+    } else if (stepper_cycle() == STEPPER_CYCLE_PROBING) {
+        basic_printf("Probing\n");
+    }
+    print_order();
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        print_axis(axis);
+    }
+    print_probe();
 }

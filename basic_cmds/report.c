@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "basic_cmds/machine_outputs.h"
+#include "basic_cmds/homing.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"
@@ -109,6 +110,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     basic_printf("E-STOP: %s%s, drivers then stay on: %s\n", pins_name(status.estop_gpio),
                  asserted ? " ASSERTED" : "", yes_no(status.estop_keeps_enabled));
     safety_print_status();
+    homing_print_status();
     machine_outputs_report();
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         print_axis(axis);

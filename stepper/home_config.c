@@ -68,6 +68,10 @@ bool home_config_switch(axis_id_t axis, home_switch_t *found) {
     return (assigned & found->bit) != 0;
 }
 
+bool home_config_latch_is_set(axis_id_t axis) {
+    return !isnan(homes.axes[axis].latch);
+}
+
 uint32_t home_config_all(void) {
     uint32_t all = 0;
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {

@@ -16,6 +16,9 @@ typedef struct {
 } home_switch_t;
 bool home_config_switch(axis_id_t axis, home_switch_t *found);
 
+// Somebody has chosen the latch feed of the axis.
+bool home_config_latch_is_set(axis_id_t axis);
+
 // The axes that have one.
 uint32_t home_config_all(void);
 

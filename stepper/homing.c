@@ -47,6 +47,7 @@ static struct {
     uint8_t wanted; // axes, as masks: to be homed, the group included
     uint8_t group;  // being homed; 0: none yet
     uint8_t todo;   // of the group, in this phase
+    uint8_t stalls; // of the group: those without a switch, see notice_stalls()
     bool moved;     // a move of the phase has been made
     bool settled;   // and the pause behind it
     bool hooked;    // the hook has been called with `on`
@@ -123,6 +124,7 @@ static uint32_t who(phase_t phase) {
         stepper_home_settings(axis, &home);
         refining |= (uint32_t)(home.latch > 0.0) << axis;
     }
+    refining &= ~(uint32_t)homing.stalls;
     return phase == PHASE_BACK_OFF || phase == PHASE_REFINE ? refining : homing.group;
 }
 
@@ -223,6 +225,16 @@ static void use_up(uint32_t moved) {
     }
 }
 
+// A switch stays closed when the axis has run over it. The output of a driver that has noticed a
+// stall does not, and would notice nothing at a lower speed: what it has found is taken as it is. It
+// is active high. Whoever has chosen a latch feed has a switch.
+static void notice_stalls(uint32_t moved) {
+    FOR_AXES(axis, moved & ~(uint32_t)homing.todo) {
+        bool opened = switch_of(axis).high && !is_closed(axis);
+        homing.stalls |= (uint8_t)((opened && !home_config_latch_is_set(axis)) << axis);
+    }
+}
+
 static void end_search(void) {
     const phase_row_t *row = &phases[homing.phase];
     const uint32_t moved = searching();
@@ -242,6 +254,9 @@ static void end_search(void) {
             homing.todo &= (uint8_t)~(1u << axis);
         }
     }
+    if (homing.phase == PHASE_APPROACH) {
+        notice_stalls(moved);
+    }
 }
 
 static void end_leaving(void) {
@@ -260,6 +275,7 @@ static void end_leaving(void) {
 
 static void begin_group(void) {
     homing.group = (uint8_t)home_config_next(homing.wanted);
+    homing.stalls = 0;
     machine_lose_position(homing.group);
     uint32_t switches = 0;
     FOR_AXES(axis, homing.group) {

@@ -33,10 +33,12 @@ typedef enum { STEPPER_HOME_AUTO, STEPPER_HOME_MIN, STEPPER_HOME_MAX } stepper_h
 typedef struct {
     stepper_home_end_t end; // auto: the minimum, unless only the maximum has a switch
     double seek;            // mm/min, > 0; half the axis's speed, at most 3000
-    double latch;           // mm/min, >= 0; a tenth of seek, 60 at least. 0: no second approach
-    double pull_off_mm;     // > 0; home_backoff_mm of the axis
-    double max_travel_mm;   // > 0; 1.5 times what the soft limits span, or 1000 without any
-    double position_mm;     // machine position where homing ends; 0
+    // mm/min, >= 0, 0: no second approach; a tenth of seek, 60 at least, and none if the switch is
+    // active high and opens by itself when the axis stands: then it is a driver's stall output
+    double latch;
+    double pull_off_mm;   // > 0; home_backoff_mm of the axis
+    double max_travel_mm; // > 0; 1.5 times what the soft limits span, or 1000 without any
+    double position_mm;   // machine position where homing ends; 0
 } stepper_home_t;
 
 // Sets all of it. Errors: not initialised, axis not configured, cycle under way.

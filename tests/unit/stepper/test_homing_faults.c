@@ -176,6 +176,32 @@ static void test_of_a_group_the_axis_that_failed_is_named(void) {
     check_in_order(true);
 }
 
+// Not taken for the switch: the second approach does not find it.
+static void test_a_disturbance_is_no_home_position(void) {
+    begin(4000);
+    homing_bench_reach(AXIS_X, "approaching the switch", 100000);
+    host_pads_drive(x_min->gpio, false);
+    bench_wait_us(200);
+    host_pads_drive(x_min->gpio, true);
+    check_failure("Homing X failed: the switch X_MIN never closed within 11 mm while approaching "
+                  "slowly",
+                  true);
+}
+
+static void test_a_pulse_shorter_than_the_filter_is_nothing(void) {
+    begin(4000);
+    homing_bench_reach(AXIS_X, "approaching the switch", 100000);
+    for (unsigned n = 0; n < 50; n++) {
+        bench_wait_us(103);
+        host_pads_drive(x_min->gpio, false);
+        bench_wait_us(19);
+        host_pads_drive(x_min->gpio, true);
+    }
+    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
+    TEST_ASSERT_EQUAL_INT64(PULL_OFF_X, bench.motors[AXIS_X].position_steps);
+    bench_end();
+}
+
 // ---- Stops in every phase -----------------------------------------------------------------------
 
 // Homing from the pressed switch, in the middle of the phase. Whatever the phase takes is enough.
@@ -332,6 +358,21 @@ static void test_sensorless_homing_takes_the_first_approach(void) {
     }
 }
 
+// As the reference has it: nothing is configured but the input, active high.
+static void test_sensorless_homing_needs_no_setting(void) {
+    begin_sensorless(0.0);
+    const stepper_home_t nothing = {STEPPER_HOME_AUTO, NAN, NAN, NAN, NAN, NAN};
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &nothing));
+    bench.motors[AXIS_X].position_steps = 3000;
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
+    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
+    TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
+    TEST_ASSERT_INT64_WITHIN(20, PULL_OFF_X + 200, bench.motors[AXIS_X].position_steps);
+    TEST_ASSERT_EQUAL_UINT32(1, hook.on);
+    stepper_homing_set_hook(NULL);
+    bench_end();
+}
+
 // Below its speed the driver notices nothing: with a slow approach that is a failure, not a wrong
 // home position.
 static void test_sensorless_homing_fails_with_a_slow_approach(void) {
@@ -368,6 +409,8 @@ int main(void) {
     RUN_TEST(test_a_switch_that_sticks_in_the_second_approach);
     RUN_TEST(test_an_axis_too_far_from_zero);
     RUN_TEST(test_of_a_group_the_axis_that_failed_is_named);
+    RUN_TEST(test_a_disturbance_is_no_home_position);
+    RUN_TEST(test_a_pulse_shorter_than_the_filter_is_nothing);
     RUN_TEST(test_a_stop_brakes_and_ends_it);
     RUN_TEST(test_an_emergency_stop_ends_it_at_once);
     RUN_TEST(test_the_estop_input_ends_it_at_the_next_tick);
@@ -375,6 +418,7 @@ int main(void) {
     RUN_TEST(test_a_feed_hold_waits_and_goes_on);
     RUN_TEST(test_close_in_every_phase_leaves_nothing_behind);
     RUN_TEST(test_sensorless_homing_takes_the_first_approach);
+    RUN_TEST(test_sensorless_homing_needs_no_setting);
     RUN_TEST(test_sensorless_homing_fails_with_a_slow_approach);
     RUN_TEST(test_the_driver_is_disarmed_after_a_stop);
     return UNITY_END();
