@@ -32,6 +32,9 @@ PROGRAMS = (
     "Larger programs",
     "Events",
 )  # headings of blocks that are typed as one program
+GUIDE = "docs/user-guide.md"
+# A reader of the guide waits for the end of what the block before has begun.
+PATIENCE = "FOR patience = 1 TO 600 : PAUSE 100 * (PEEK(STEPPER ACTIVE) = 1) : NEXT"
 WAIT = "DO : PAUSE 5 : LOOP UNTIL PEEK(STEPPER ACTIVE) <= 0"
 
 
@@ -74,6 +77,8 @@ def script(page: str, *, programs: bool = True) -> list[Typed]:
     for block in blocks(page):
         if block.language == "basic" and not programs:
             continue
+        if block.language == "basic" and page == GUIDE:
+            typed.append(Typed(PATIENCE))
         if block.language == "basic" and block.heading in PROGRAMS:
             typed.append(Typed(WAIT))
             typed.append(Typed("AUTOSAVE\n" + "\n".join(block.lines) + "\n" + CTRL_Z))
@@ -89,11 +94,16 @@ def script(page: str, *, programs: bool = True) -> list[Typed]:
     return typed
 
 
-def converse(lines: list[str]) -> list[list[str]]:
-    """Type lines at the prompt; return the answer to each."""
+def converse(lines: list[str], *options: str) -> list[list[str]]:
+    """Type lines at the prompt of the host program; return the answer to each."""
     text = "".join(f'{line}\nPRINT "<{i}>"\n' for i, line in enumerate(lines))
     shown = subprocess.run(
-        [STEPMITE, "--virtual"], input=text, capture_output=True, text=True, timeout=60, check=True
+        [STEPMITE, "--virtual", *options],
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
     ).stdout.replace("\r", "")
     answers = []
     for i, line in enumerate(lines):
@@ -135,17 +145,43 @@ def test_the_first_move_ends_at_its_target() -> None:
     assert converse([*lines, WAIT, "PRINT PEEK(STEPPER X)"])[-1] == [" 10"]
 
 
-def test_the_g_codes_of_the_guide_are_understood() -> None:
-    """Each code in the table of the user guide is accepted."""
+SWITCHES = """\
+axis X step=GP2 dir=GP3
+axis Y step=GP5 dir=GP6
+axis Z step=GP8 dir=GP9
+switch pin=GP16 axis=X to=-80
+switch pin=GP17 axis=Y to=-80
+switch pin=GP18 axis=Z to=-400
+"""
+"""The axes of examples/machine.bas with a switch below each."""
+
+TO_TRY_CODES_WITH = [
+    "STEPPER SPINDLE GP14,0,12000,0,1000,0,GP15",
+    "STEPPER COOLANT GP20,GP21",
+    "STEPPER HWLIMITS GP16,GP17,GP18",
+    "STEPPER RUN",
+    "STEPPER GC F600",
+]
+
+
+def test_the_g_codes_of_the_guide_are_understood(tmp_path: Path) -> None:
+    """Each code in the table of the user guide is accepted; those of a row in their order."""
     text = (ROOT / "docs/user-guide.md").read_text(encoding="utf-8")
     table = text.split("## G-code")[1].split("##")[0]
-    cells = re.findall(r"^\| (`G.*?|`M.*?) \|", table, re.MULTILINE)
-    codes = [code for cell in cells for code in re.findall(r"`(.*?)`", cell)]
-    assert {"G0", "G1", "G4 P500", "G92 X0", "M3", "M5"} <= set(codes)
+    rows = [
+        re.findall(r"`(.*?)`", cell)
+        for cell in re.findall(r"^\| (`[GMT]\d.*?) \|", table, re.MULTILINE)
+    ]
+    assert {"G0", "G1", "G4 P500", "G92 X0", "M3", "M5"} <= {code for row in rows for code in row}
     machine = (ROOT / "examples/machine.bas").read_text(encoding="utf-8").splitlines()
-    lines = [*machine, *(f"STEPPER GC {code}" for code in codes)]
-    for line, answer in zip(lines, converse(lines), strict=True):
-        assert not failed(answer), (line, answer)
+    setup = [line for line in machine if not re.match("STEPPER (SPINDLE|RUN)", line)]
+    world = tmp_path / "machine.txt"
+    world.write_text(SWITCHES)
+    for row in rows:
+        lines = [*setup, *TO_TRY_CODES_WITH, *(f"STEPPER GC {code}" for code in row)]
+        answers = converse([*lines, "STEPPER STOP"], "--machine", str(world))
+        for line, answer in zip(lines, answers, strict=False):
+            assert not failed(answer), (line, answer)
 
 
 def test_machine_bas_can_be_sent_twice() -> None:
@@ -161,7 +197,7 @@ def test_machine_bas_can_be_sent_twice() -> None:
 def known_commands() -> set[str]:
     """Return the names of all command rows, from the reference made of them."""
     text = (ROOT / "docs/reference.md").read_text(encoding="utf-8")
-    return set(re.findall(r"^## (STEPPER \w+)", text, re.MULTILINE))
+    return set(re.findall(r"^## (?:ON )?(STEPPER \w+)", text, re.MULTILINE))
 
 
 @pytest.mark.parametrize("page", PAGES)

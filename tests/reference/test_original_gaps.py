@@ -103,6 +103,18 @@ THERE = {
     ),
     "coolant": Feature(["STEPPER COOLANT GP19,GP20", *gc("M7", "M8", "M9"), WAIT]),
     "tools": Feature([*gc("T2", "M6", "G0 X1"), "PAUSE 100", "STEPPER RESUME", WAIT], {"X": 1}),
+    "files": Feature(
+        [
+            'OPEN "a.nc" FOR OUTPUT AS #1',
+            'PRINT #1, "G21 G90" + CHR$(10) + "G1 X1 F600"',
+            "CLOSE #1",
+            'STEPPER CHECK "a.nc"',
+            'STEPPER FILE "a.nc"',
+            WAIT,
+            "PRINT PEEK(STEPPER LINE), PEEK(STEPPER PERCENT)",
+        ],
+        {"X": 1},
+    ),
     "homing of each axis": Feature(
         [SWITCHES, "STEPPER HOME X,MAX,1200,60,2,50,100", "STEPPER HOME ORDER Z,XY"]
     ),
@@ -112,6 +124,19 @@ THERE = {
     "settings kept over power-off": Feature(["OPTION AUTORUN OFF", "x = 1", WAIT, "VAR SAVE x"]),
 }
 """What the original lacks and we have."""
+
+NOT_THERE = [
+    "Checksums",
+    "Two motors for one axis",
+    "Backlash",
+    "CoreXY",
+    "More than four axes",
+    "Soft limits of A",
+    "width and the polarity of step pulses",
+    "Encoders",
+    "Spindle override",
+]
+"""What the guide says is not there."""
 
 
 @pytest.mark.parametrize("name", THERE)
@@ -131,3 +156,11 @@ def test_2_27_features_are_there(name: str, tmp_path: Path) -> None:
     assert session.errors() == []
     for axis, place in feature.end.items():
         assert session.end(axis) == place, axis
+
+
+def test_2_27_what_is_not_there_is_told() -> None:
+    """In the guide."""
+    page = (Path(__file__).parents[2] / "docs/user-guide.md").read_text(encoding="utf-8")
+    told = page.partition("## What is not there")[2]
+    for feature in NOT_THERE:
+        assert feature in told, feature
