@@ -31,7 +31,10 @@ static void follow_drops(gcode_interpreter_t *in) {
         return;
     }
     in->drops = drops;
-    in->state.modal.spindle = (uint8_t)in->sink->spindle();
+    gcode_outputs_t now = in->sink->outputs();
+    in->state.modal.spindle = (uint8_t)now.spindle;
+    in->state.modal.flood = now.flood;
+    in->state.modal.mist = now.mist;
     in->busy = false;
 }
 
@@ -84,7 +87,8 @@ void gcode_interpreter_background(gcode_interpreter_t *in) {
         return;
     }
     err_t err = push_pending(in);
-    if (err != ERR_OK && err != ERR_GCODE_BUFFER_FULL) {
+    bool later = err == ERR_GCODE_BUFFER_FULL || err == ERR_STEPPER_STOPPING; // then it is dropped
+    if (err != ERR_OK && !later) {
         give_up(in, err);
     }
 }

@@ -140,10 +140,10 @@ static bool ended(err_t *result) {
     return true;
 }
 
-static gcode_spindle_t spindle(void) {
-    stepper_outputs_t outputs;
-    stepper_outputs(&outputs);
-    return (gcode_spindle_t)outputs.turn;
+static gcode_outputs_t outputs(void) {
+    stepper_outputs_t now;
+    stepper_outputs(&now);
+    return (gcode_outputs_t){(gcode_spindle_t)now.turn, now.flood, now.mist};
 }
 
 const gcode_sink_t gcode_machine = {
@@ -153,6 +153,6 @@ const gcode_sink_t gcode_machine = {
     .push = push,
     .ended = ended,
     .drops = stepper_drops,
-    .spindle = spindle,
+    .outputs = outputs,
     .tell = tell,
 };

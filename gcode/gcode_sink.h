@@ -38,6 +38,11 @@ typedef struct {
     };
 } gcode_entry_t;
 
+typedef struct {
+    gcode_spindle_t spindle;
+    bool flood, mist;
+} gcode_outputs_t;
+
 // One for each interpreter. Errors as err_t, raised by whoever finds them.
 typedef struct {
     // Where the last entry ended, machine coordinates.
@@ -53,8 +58,8 @@ typedef struct {
     bool (*ended)(err_t *result);
     // Counts how often what was queued has been dropped.
     uint32_t (*drops)(void);
-    // What the spindle does, after a drop.
-    gcode_spindle_t (*spindle)(void);
+    // What spindle and coolant do, after a drop.
+    gcode_outputs_t (*outputs)(void);
     // A text of the line for the user: of (MSG,...), `length` bytes.
     void (*tell)(const char *text, size_t length);
 } gcode_sink_t;

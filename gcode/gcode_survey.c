@@ -197,8 +197,8 @@ static uint32_t drops(void) {
     return 0;
 }
 
-static gcode_spindle_t spindle(void) {
-    return survey->spindle;
+static gcode_outputs_t outputs(void) {
+    return (gcode_outputs_t){.spindle = survey->spindle};
 }
 
 static void tell(const char *text, size_t length) {
@@ -213,7 +213,7 @@ static const gcode_sink_t sink = {
     .push = push,
     .ended = ended,
     .drops = drops,
-    .spindle = spindle,
+    .outputs = outputs,
     .tell = tell,
 };
 

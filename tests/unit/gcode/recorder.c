@@ -147,8 +147,8 @@ static uint32_t drops(void) {
     return recorder.drops;
 }
 
-static gcode_spindle_t spindle(void) {
-    return recorder.spindle;
+static gcode_outputs_t outputs(void) {
+    return (gcode_outputs_t){.spindle = recorder.spindle};
 }
 
 static void tell(const char *text, size_t length) {
@@ -162,7 +162,7 @@ static const gcode_sink_t sink = {
     .push = push,
     .ended = ended,
     .drops = drops,
-    .spindle = spindle,
+    .outputs = outputs,
     .tell = tell,
 };
 

@@ -65,8 +65,8 @@ static uint32_t drops(void) {
     return sink.drops;
 }
 
-static gcode_spindle_t spindle(void) {
-    return GCODE_SPINDLE_OFF;
+static gcode_outputs_t outputs(void) {
+    return (gcode_outputs_t){.spindle = GCODE_SPINDLE_OFF};
 }
 
 static const gcode_sink_t recorder = {
@@ -75,7 +75,7 @@ static const gcode_sink_t recorder = {
     .check = check,
     .push = push,
     .drops = drops,
-    .spindle = spindle,
+    .outputs = outputs,
 };
 
 static gcode_interpreter_t interpreter;
