@@ -118,6 +118,9 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
 
 static err_t push(const gcode_entry_t *entry) {
     double from[AXIS_COUNT];
+    if (recorder.fails != ERR_OK) {
+        return err_raise(recorder.fails, "%s", "");
+    }
     if (recorder.room == 0) {
         return err_raise(ERR_GCODE_BUFFER_FULL, NULL);
     }
