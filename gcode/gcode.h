@@ -1,5 +1,5 @@
-// G-code: from a line of text to entries of the motion queue. The face of gcode/. docs/gcode.md lists
-// the codes. A line is read whole and checked whole. A refused line has changed nothing, modal state
+// G-code: from a line of text to entries of the motion queue. The face of gcode/. docs/user-guide.md
+// lists the codes. A line is read whole and checked whole. A refused line has changed nothing, modal state
 // included: the same line may be sent again. Context: main loop.
 #ifndef GCODE_H
 #define GCODE_H

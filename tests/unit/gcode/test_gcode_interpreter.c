@@ -100,8 +100,8 @@ static void test_what_fails_later_is_told_once(void) {
     go_on(5, "");
     TEST_ASSERT_FALSE(in->busy);
     TEST_ASSERT_EQUAL(ERR_POSITION_UNKNOWN, gcode_interpreter_failure(in));
-    TEST_ASSERT_EQUAL_STRING(
-        "Machine position unknown - use STEPPER POSITION or G28 homing first", err_message());
+    TEST_ASSERT_EQUAL_STRING("Machine position unknown - use STEPPER POSITION or G28 homing first",
+                             err_message());
     TEST_ASSERT_EQUAL(ERR_OK, gcode_interpreter_failure(in));
 }
 
