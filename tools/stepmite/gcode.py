@@ -36,6 +36,8 @@ class Reader:
     """STEPPER DIALECT NIST."""
     skips: bool = False
     """Lines that begin with / are left out (STEPPER BLOCKDELETE 1)."""
+    optional_stop: bool = False
+    """M1 pauses (STEPPER OPTIONALSTOP 1)."""
     unit_mm: float = 1.0
     inverse_time: bool = False
     centres_from_start: bool = True

@@ -362,9 +362,9 @@ class Line:
 
     def _end(self) -> None:
         code = self.codes.get("ends")
-        if code in ("M0", "M1"):
+        if code == "M0" or (code == "M1" and self.state.optional_stop):
             self._add("pause")
-        elif code is not None:
+        elif code in ("M2", "M30"):
             self._end_program()
 
     def _end_program(self) -> None:
