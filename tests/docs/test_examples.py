@@ -25,6 +25,7 @@ PAGES = [
     "docs/pc-tools.md",
     "docs/testing.md",
     "docs/basic.md",
+    "docs/gcode.md",
 ]
 CTRL_Z = "\x1a"
 PROGRAMS = (
