@@ -8,7 +8,9 @@
 #include <stdlib.h>
 
 #include "host_clock.h"
+#include "host_pwm.h"
 #include "stepper/machine.h"
+#include "stepper/stepper_outputs.h"
 #include "tests/unit/stepper/watch.h"
 
 model_t model;
@@ -64,11 +66,31 @@ void check_position(void) {
     }
 }
 
+// At rest the spindle turns as it was told last, or as it did when the queue was dropped.
+static int spindle_rpm(void) {
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    unsigned slice = HAL_PWM_SLICE(MODEL_SPINDLE_GPIO);
+    const hal_pwm_t *pwm = host_pwm_settings(slice);
+    unsigned level = pwm->level[HAL_PWM_CHANNEL(MODEL_SPINDLE_GPIO)];
+    int rpm = (int)lround((double)level * MODEL_RPM_MAX / (pwm->top + 1));
+    check(rpm == (int)lround(outputs.rpm), "the slice has another level than the machine says");
+    return rpm;
+}
+
+static void check_spindle(void) {
+    int expected = model.spindle ? model.rpm : 0;
+    if (model.pwm && spindle_rpm() != expected) {
+        fail("the spindle has %d rpm instead of %d", spindle_rpm(), expected);
+    }
+}
+
 void check_end(void) {
     stepper_status_t status;
     stepper_status(&status);
     check_status(&status);
     check_position();
+    check_spindle();
     check(status.blocks_free == status.blocks, "entries are left in the queue");
     if (model.curved ? status.executed < model.entries : status.executed != model.entries) {
         fail("%u entries executed, %u were queued", (unsigned)status.executed,
@@ -120,4 +142,8 @@ void follow_machine(void) {
               "after a stop the next move does not start where the motors stand");
     }
     model.place_known = false;
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    model.spindle = outputs.turn != STEPPER_SPINDLE_OFF;
+    model.rpm = model.pwm ? spindle_rpm() : 0;
 }

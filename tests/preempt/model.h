@@ -8,6 +8,8 @@
 #include "stepper/stepper.h"
 
 #define MODEL_ESTOP_GPIO 15u
+#define MODEL_SPINDLE_GPIO 14u
+#define MODEL_RPM_MAX 10000
 
 typedef struct {
     uint64_t seed;
@@ -21,6 +23,8 @@ typedef struct {
     uint64_t pulses[AXIS_COUNT];
     uint32_t entries; // that must be executed
     bool held, armed, spindle;
+    bool pwm; // the spindle has one
+    int rpm;  // behind all that is queued, with PWM
     uint32_t blocks;
 } model_t;
 

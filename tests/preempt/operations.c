@@ -85,6 +85,10 @@ static void move_to(const int place[AXIS_COUNT], int feed) {
                            STEPPER_AXIS_LETTERS[axis], place[axis] / 100.0);
         model.pulses[axis] += (uint64_t)abs(steps[axis] - model.steps[axis]);
     }
+    if (model.pwm && model.spindle && fuzz_random_percent(30)) {
+        model.rpm = fuzz_random_between(0, 10) * (MODEL_RPM_MAX / 10);
+        snprintf(line + length, sizeof line - (size_t)length, "S%d", model.rpm);
+    }
     memcpy(model.steps, steps, sizeof steps);
     memcpy(model.place, place, sizeof model.place);
     model.place_known = true;
@@ -170,7 +174,8 @@ static void do_other_entry(void) {
         snprintf(line, sizeof line, "G4 P%d", fuzz_random_between(0, 20));
     } else {
         model.spindle = !model.spindle;
-        snprintf(line, sizeof line, "M%d", model.spindle ? 3 : 5);
+        model.rpm = fuzz_random_between(0, 10) * (MODEL_RPM_MAX / 10);
+        snprintf(line, sizeof line, model.spindle ? "M3 S%d" : "M5", model.rpm);
     }
     queue_line(line);
 }

@@ -52,7 +52,8 @@ static void set_up(void) {
             fail("axis: %s", err_message());
         }
     }
-    must("STEPPER SPINDLE GP14");
+    model.pwm = fuzz_random_percent(50);
+    must(model.pwm ? "STEPPER SPINDLE GP14,,10000,,20000" : "STEPPER SPINDLE GP14");
     if (fuzz_random_percent(50)) {
         must("STEPPER SCURVE 1");
         if (command("STEPPER JERK %d", fuzz_random_between(2, 200) * 1000) != ERR_OK) {
