@@ -2,7 +2,6 @@
 #include "basic_cmds/homing.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
 #include "gcode/gcode.h"
@@ -12,19 +11,15 @@
 // Homing that STEPPER HOME RUN has begun: no statement waits for it.
 static bool untold;
 
-static double number_or_default(const basic_arg_t *arg) {
-    return arg->given ? arg->number : (double)NAN;
-}
-
 err_t homing_configure(const basic_arg_t *args, size_t count) {
     (void)count;
     stepper_home_t home = {
         .end = STEPPER_HOME_AUTO,
-        .seek = number_or_default(&args[HOME_SEEK]),
-        .latch = number_or_default(&args[HOME_LATCH]),
-        .pull_off_mm = number_or_default(&args[HOME_PULL_OFF]),
-        .max_travel_mm = number_or_default(&args[HOME_TRAVEL]),
-        .position_mm = number_or_default(&args[HOME_POSITION]),
+        .seek = args[HOME_SEEK].number,
+        .latch = args[HOME_LATCH].given ? args[HOME_LATCH].number : STEPPER_HOME_LATCH,
+        .pull_off_mm = args[HOME_PULL_OFF].number,
+        .max_travel_mm = args[HOME_TRAVEL].number,
+        .position_mm = args[HOME_POSITION].number,
     };
     if (args[HOME_END].given) {
         home.end = args[HOME_END].integer == 0 ? STEPPER_HOME_MIN : STEPPER_HOME_MAX;

@@ -29,7 +29,7 @@ static struct {
 
 void home_config_reset(void) {
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
-        homes.axes[axis] = (home_t){NAN, NAN, NAN, NAN, NAN, STEPPER_HOME_AUTO};
+        homes.axes[axis] = (home_t){.latch = (float)STEPPER_HOME_LATCH};
     }
     memcpy(homes.groups, (const uint8_t[]){1u << AXIS_Z, 1u << AXIS_X, 1u << AXIS_Y},
            sizeof homes.groups);
@@ -69,7 +69,7 @@ bool home_config_switch(axis_id_t axis, home_switch_t *found) {
 }
 
 bool home_config_latch_is_set(axis_id_t axis) {
-    return !isnan(homes.axes[axis].latch);
+    return homes.axes[axis].latch >= 0.0f;
 }
 
 uint32_t home_config_all(void) {
@@ -83,7 +83,7 @@ uint32_t home_config_all(void) {
 }
 
 static double given_or(float given, double otherwise) {
-    return isnan(given) ? otherwise : (double)given;
+    return given > 0.0f ? (double)given : otherwise;
 }
 
 void stepper_home_settings(axis_id_t axis, stepper_home_t *settings) {
@@ -98,11 +98,11 @@ void stepper_home_settings(axis_id_t axis, stepper_home_t *settings) {
     double seek = fmin(SEEK_PART * 60.0 * (double)a->velocity, SEEK_MAX_MM_MIN);
     settings->seek = given_or(home->seek, seek);
     double latch = fmin(fmax(LATCH_PART * settings->seek, LATCH_MIN_MM_MIN), settings->seek);
-    settings->latch = given_or(home->latch, latch);
+    settings->latch = home->latch >= 0.0f ? (double)home->latch : latch;
     settings->pull_off_mm = given_or(home->pull_off_mm, a->config.home_backoff_mm);
     double travel = a->limited ? TRAVEL_PART * (a->max - a->min) : TRAVEL_MM;
     settings->max_travel_mm = given_or(home->max_travel_mm, travel);
-    settings->position_mm = given_or(home->position_mm, 0.0);
+    settings->position_mm = (double)home->position_mm;
 }
 
 err_t stepper_home_order(const uint8_t groups[STEPPER_HOME_AXES]) {

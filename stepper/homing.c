@@ -10,6 +10,7 @@
 // Context: main loop.
 #include "stepper/homing.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "stepper/alarm.h"
@@ -152,7 +153,7 @@ static void search(void) {
     const phase_row_t *row = &phases[homing.phase];
     const uint32_t moving = searching();
     double feed[STEPPER_HOME_AXES] = {0};
-    double minutes = INFINITY;
+    double minutes = DBL_MAX;
     double square = 0.0;
     FOR_AXES(axis, moving) {
         stepper_home_t home;
@@ -181,7 +182,7 @@ static void search(void) {
 
 // To the place that is pull_off away from the switch.
 static void leave(void) {
-    double feed = INFINITY; // that none of them minds
+    double feed = DBL_MAX; // that none of them minds
     int32_t target[AXIS_COUNT];
     machine_motor_steps(target);
     FOR_AXES(axis, homing.todo) {

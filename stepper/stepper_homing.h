@@ -29,17 +29,20 @@ void stepper_background(void);
 
 typedef enum { STEPPER_HOME_AUTO, STEPPER_HOME_MIN, STEPPER_HOME_MAX } stepper_home_end_t;
 
-// NAN stands for the default, which may follow from the axis's configuration.
+// 0 stands for the default, which may follow from the axis's configuration.
 typedef struct {
-    stepper_home_end_t end; // auto: the minimum, unless only the maximum has a switch
-    double seek;            // mm/min, > 0; half the axis's speed, at most 3000
-    // mm/min, >= 0, 0: no second approach; a tenth of seek, 60 at least, and none if the switch is
-    // active high and opens by itself when the axis stands: then it is a driver's stall output
+    stepper_home_end_t end; // default: the minimum, unless only the maximum has a switch
+    double seek;            // mm/min; half the axis's speed, at most 3000
+    // mm/min, 0: no second approach. STEPPER_HOME_LATCH: a tenth of seek, 60 at least, and none if
+    // the switch is active high and opens by itself when the axis stands: then it is a driver's
+    // stall output.
     double latch;
-    double pull_off_mm;   // > 0; home_backoff_mm of the axis
-    double max_travel_mm; // > 0; 1.5 times what the soft limits span, or 1000 without any
-    double position_mm;   // machine position where homing ends; 0
+    double pull_off_mm;   // home_backoff_mm of the axis
+    double max_travel_mm; // 1.5 times what the soft limits span, or 1000 without any
+    double position_mm;   // machine position where homing ends
 } stepper_home_t;
+
+#define STEPPER_HOME_LATCH (-1.0)
 
 // Sets all of it. Errors: not initialised, axis not configured, cycle under way.
 err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config);

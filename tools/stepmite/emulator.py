@@ -215,6 +215,20 @@ class Emulator:
         """Set what the converter reads until the next restart: channel 0 is GP26, 4 the sensor."""
         self.request("set_analog", channel=channel, reading=reading)
 
+    def add_axis(self, name: str, step: int, direction: int, at: int = 0) -> None:
+        """Move an axis by step and direction pins from now on; it stands at step `at`."""
+        self.request("add_axis", name=name, step=step, dir=direction, at=at)
+
+    def add_switch(
+        self, name: str, pin: int, begin: int = -(2**31), end: int = 2**31, bounces: int = 0
+    ) -> None:
+        """Drive a pin low while the axis is between two steps (both included), else high."""
+        self.request("add_switch", name=name, pin=pin, **{"from": begin}, to=end, bounces=bounces)
+
+    def axis(self, name: str) -> int:
+        """Return the step at which an axis stands."""
+        return int(self.request("axis", name=name)["at"])
+
     def level(self, gpio: int) -> int:
         """Return the level of a pin now."""
         return int(self.request("level", gpio=gpio)["level"])

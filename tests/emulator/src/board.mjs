@@ -5,6 +5,7 @@ import fs from 'node:fs';
 import { Chip, readBootrom } from './chip.mjs';
 import { Symbols } from './elf.mjs';
 import { FLASH_SIZE } from './flash.mjs';
+import { Axis } from './machine.mjs';
 import { RAM_SIZE } from './executor.mjs';
 import { Profile } from './profile.mjs';
 import { Recorder } from './recorder.mjs';
@@ -26,6 +27,7 @@ export class Board {
         this.events = [];   // [{ timeNanos, action }], sorted
         this.output = '';   // what came over USB and nobody has taken
         this.uartOutput = ['', ''];
+        this.axes = new Map(); // name -> Axis
         this.onSerial = null; // (bytes) => void: takes USB output instead of `output`
         this.resets = 0;
         this.baseNanos = 0; // virtual time at the last restart
@@ -42,7 +44,7 @@ export class Board {
     start() {
         this.chip = new Chip(this.shared, {
             onFault: (text, pc) => this.fault(text, pc),
-            onEdge: (gpio, level) => this.recorder.add(this.now, gpio, level),
+            onEdge: (gpio, level) => this.edge(gpio, level),
             onSerial: (bytes) => this.serial(bytes),
             onConnected: () => {},
             onUart: (index, byte) => { this.uartOutput[index] += String.fromCharCode(byte); },
@@ -65,6 +67,11 @@ export class Board {
         if (this.faults.length >= FAULTS_KEPT) return;
         const where = this.symbols.describe(pc >>> 0);
         this.faults.push({ time_ns: this.now, text: `${text}, at ${(pc >>> 0).toString(16)}${where && ` ${where}`}` });
+    }
+
+    edge(gpio, level) {
+        this.recorder.add(this.now, gpio, level);
+        if (this.chip !== null) this.axes.forEach((axis) => axis.edge(gpio, level, this));
     }
 
     serial(bytes) {
@@ -149,6 +156,14 @@ export class Board {
 
     setPinAt(timeNanos, gpio, level) {
         this.at(timeNanos, () => this.setPin(gpio, level));
+    }
+
+    addAxis(name, options) {
+        this.axes.set(name, new Axis(options));
+    }
+
+    addSwitch(name, options) {
+        this.axes.get(name).addSwitch(options, this);
     }
 
     level(gpio) {

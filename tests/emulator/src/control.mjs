@@ -45,6 +45,9 @@ const operations = {
         if (at === null) board.setPin(gpio, level);
         else board.setPinAt(at, gpio, level);
     },
+    add_axis({ name, ...options }) { board.addAxis(name, options); },
+    add_switch({ name, ...options }) { board.addSwitch(name, options); },
+    axis({ name }) { return { at: board.axes.get(name).at }; },
     set_analog({ channel, reading }) { board.chip.mcu.adc.channelValues[channel] = reading; },
     level({ gpio }) { return { level: board.level(gpio) }; },
     inputs({ file }) {

@@ -1,5 +1,4 @@
 // Homing: to the step, from anywhere, in any order, and every way in which it can fail.
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unity.h>
@@ -17,7 +16,7 @@ void tearDown(void) {
     stepper_close(); // what a failed test has left
 }
 
-static const stepper_home_t plain = {STEPPER_HOME_AUTO, NAN, NAN, NAN, NAN, NAN};
+static const stepper_home_t plain = {.latch = STEPPER_HOME_LATCH};
 
 static void home(uint32_t axes, double limit_s) {
     TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, stepper_home(axes), err_message());

@@ -1,5 +1,4 @@
 // Every way in which homing can end too early: what is said, and that the machine is in order then.
-#include <math.h>
 #include <string.h>
 #include <unity.h>
 
@@ -42,7 +41,7 @@ static stepper_event_t last_event(void) {
 
 static void begin(int64_t x) {
     homing_bench_start(false);
-    stepper_home_t wanted = {STEPPER_HOME_AUTO, NAN, NAN, NAN, 60.0, NAN};
+    stepper_home_t wanted = {.latch = STEPPER_HOME_LATCH, .max_travel_mm = 60.0};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
     homing_bench_put(AXIS_X, x);
     while (stepper_next_event() != STEPPER_EVENT_NONE) {
@@ -147,7 +146,7 @@ static void test_a_switch_that_sticks_in_the_second_approach(void) {
 
 static void test_an_axis_too_far_from_zero(void) {
     homing_bench_start(true);
-    stepper_home_t wanted = {STEPPER_HOME_AUTO, NAN, NAN, NAN, 1000.0, NAN};
+    stepper_home_t wanted = {.latch = STEPPER_HOME_LATCH, .max_travel_mm = 1000.0};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_set_position(AXIS_X, -1.0e9 / 80.0 + 500.0));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
@@ -161,7 +160,7 @@ static void test_an_axis_too_far_from_zero(void) {
 static void test_of_a_group_the_axis_that_failed_is_named(void) {
     homing_bench_start(false);
     const uint8_t order[] = {3, 0, 0};
-    stepper_home_t wanted = {STEPPER_HOME_AUTO, NAN, NAN, NAN, 80.0, NAN};
+    stepper_home_t wanted = {.latch = STEPPER_HOME_LATCH, .max_travel_mm = 80.0};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_order(order));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_Y, &wanted));
@@ -333,7 +332,7 @@ static void begin_sensorless(double latch) {
     memset(switches.gpio, PINS_NONE, sizeof switches.gpio);
     switches.gpio[STEPPER_X_MIN] = 22;
     TEST_ASSERT_EQUAL(ERR_OK, stepper_hwlimits(&switches));
-    stepper_home_t wanted = {STEPPER_HOME_AUTO, 1500.0, latch, NAN, 100.0, NAN};
+    stepper_home_t wanted = {.seek = 1500.0, .latch = latch, .max_travel_mm = 100.0};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
     memset(&hook, 0, sizeof hook);
     stepper_homing_set_hook(arm_driver);
@@ -361,7 +360,7 @@ static void test_sensorless_homing_takes_the_first_approach(void) {
 // As the reference has it: nothing is configured but the input, active high.
 static void test_sensorless_homing_needs_no_setting(void) {
     begin_sensorless(0.0);
-    const stepper_home_t nothing = {STEPPER_HOME_AUTO, NAN, NAN, NAN, NAN, NAN};
+    const stepper_home_t nothing = {.latch = STEPPER_HOME_LATCH};
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &nothing));
     bench.motors[AXIS_X].position_steps = 3000;
     TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
