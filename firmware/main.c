@@ -35,10 +35,10 @@ static void wait_until_idle(void) {
     stepper_status_t status;
     stepper_status(&status);
     while ((status.moving || basic_cmds_job_runs()) && !status.holding) {
-        hal_idle(hal_time_us() + 1000);
-        basic_cmds_background();
+        basic_wait(hal_time_us() + 1000);
         stepper_status(&status);
     }
+    basic_wait(0); // what was told in the end
 }
 
 int main(int argc, char **argv) {
