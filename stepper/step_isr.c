@@ -24,31 +24,31 @@ segment_ring_t segments;
 // input is suspected, and that it has gone back has to be seen.
 #define SUSPICION (1u << 31)
 
-// Inputs whose level has to be there for some samples in a row to count. Noise on one input may
-// hold up another one that has no filter of its own by `samples`, not longer.
+// Inputs whose level has to be there for some samples in a row to count. Noise on one input may hold
+// up another one by as many samples, not longer.
 typedef struct {
     uint32_t pins;
     uint32_t suspects; // those that had the level in all samples since the first
-    uint32_t samples;  // how many these are
+    int32_t left;      // samples until it is to be decided
+    int32_t samples;   // what `left` begins with
 } filter_t;
 
 // Written by the tick while it runs. The other contexts read `current` and `ticks_left`, twice, to
 // see a pair that belongs together.
 static struct {
-    segment_t *volatile current;           // NULL: none
-    volatile uint32_t ticks_left;          // of the current one
-    uint32_t raised;                       // step pins that are high
-    volatile uint32_t watched;             // inputs, and SUSPICION
-    volatile uint32_t quiet;               // their levels while nothing is to be done
-    hal_pwm_place_t pwm;                   // of the spindle
+    segment_t *volatile current;  // NULL: none
+    volatile uint32_t ticks_left; // of the current one
+    uint32_t raised;              // step pins that are high
+    volatile uint32_t watched;    // inputs, and SUSPICION
+    volatile uint32_t quiet;      // their levels while nothing is to be done
+    hal_pwm_place_t pwm;          // of the spindle
+    filter_t trip, latch;
+    step_isr_inputs_t inputs;              // what trip.pins are
     uint32_t step_pins[STEP_COMBINATIONS]; // bit 3: X ... bit 0: A, as the carries are gathered
     volatile uint32_t dry_count;
     volatile uint32_t tripped; // the inputs that did it, 0: none
 
-    step_isr_inputs_t inputs;
-    filter_t trip, latch;
-
-    uint32_t latch_levels, latch_samples;
+    uint32_t latch_levels;
     volatile uint32_t latch_fired;       // the inputs that did it, 0: none
     segment_t *volatile latched_segment; // where the motors were: NULL, between two motions
     volatile uint32_t latched_left;
@@ -58,63 +58,83 @@ static struct {
 
 // ---- Inputs -------------------------------------------------------------------------------------
 
-static void HAL_RAM_FUNC(trip)(uint32_t pins) {
+#define RARE(name) __attribute__((noinline)) HAL_RAM_FUNC(name)
+
+static void RARE(trip)(uint32_t pins) {
     isr.tripped = pins;
     isr.raised = 0;
     hal_tick_stop();
     hal_governor_request();
 }
 
-// The pins of the filter that are unusual now and were so in all samples since the first, which is
-// this one if `samples` is 1 afterwards.
-static inline uint32_t look(filter_t *filter, uint32_t unusual) {
-    uint32_t suspects = unusual & filter->suspects;
-    uint32_t samples = filter->samples + 1;
-    if (suspects == 0) {
-        suspects = unusual & filter->pins;
-        samples = 1;
+// The suspects have been there for the fewest samples that any input wants. True: the machine is
+// stopped.
+static bool RARE(decide)(void) {
+    uint32_t samples = (uint32_t)(isr.trip.samples - isr.trip.left);
+    uint32_t sure = samples >= isr.inputs.limit_samples ? isr.inputs.limits : 0;
+    sure |= samples >= isr.inputs.estop_samples ? isr.inputs.estop : 0;
+    sure &= isr.trip.suspects;
+    if (sure != 0) {
+        trip(sure);
     }
-    filter->suspects = suspects;
-    filter->samples = samples;
-    return suspects;
+    return sure != 0;
 }
 
-static inline void look_for_latch(uint32_t unusual) {
-    uint32_t suspects = look(&isr.latch, unusual);
+// Goes on with the suspects of the filter that are still unusual. False if there are none: what is
+// unusual now begins its count.
+static inline bool go_on(filter_t *filter, uint32_t unusual) {
+    uint32_t suspects = unusual & filter->suspects;
+    int32_t left = filter->left;
+    bool same = suspects != 0;
+    if (!same) {
+        suspects = unusual & filter->pins;
+        left = filter->samples;
+    }
+    filter->suspects = suspects;
+    filter->left = left - 1;
+    return same;
+}
+
+// Behind the trip's filter, which has had its say about SUSPICION.
+static void RARE(look_for_latch)(uint32_t unusual) {
+    bool same = go_on(&isr.latch, unusual);
+    uint32_t suspects = isr.latch.suspects;
     if (suspects == 0) {
         return;
     }
-    if (isr.latch.samples == 1) {
+    if (!same) {
         isr.latched_segment = isr.current;
         isr.latched_left = isr.ticks_left;
     }
-    if (isr.latch.samples >= isr.latch_samples) {
+    if (isr.latch.left <= 0) {
         isr.watched = isr.watched & ~isr.latch.pins;
         isr.latch.pins = 0;
         isr.latch.suspects = 0;
         isr.latch_fired = suspects;
         hal_governor_request();
+    } else {
+        isr.quiet = isr.quiet | SUSPICION;
     }
 }
 
 // Some inputs are not as they are while nothing is to be done. True: the machine is stopped.
-static bool HAL_RAM_FUNC(inspect)(uint32_t unusual) __attribute__((noinline));
-
-static bool HAL_RAM_FUNC(inspect)(uint32_t unusual) {
-    uint32_t suspects = look(&isr.trip, unusual);
-    uint32_t sure = isr.trip.samples >= isr.inputs.limit_samples ? isr.inputs.limits : 0;
-    sure |= isr.trip.samples >= isr.inputs.estop_samples ? isr.inputs.estop : 0;
-    sure = (suspects & sure) | (unusual & isr.inputs.immediate);
-    if (sure != 0) {
-        trip(sure);
+static inline bool inspect(uint32_t unusual) {
+    uint32_t immediate = unusual & isr.inputs.immediate;
+    if (immediate != 0) {
+        trip(immediate);
         return true;
+    }
+    if (go_on(&isr.trip, unusual)) {
+        if (isr.trip.left <= 0 && decide()) {
+            return true;
+        }
+    } else {
+        uint32_t quiet = isr.quiet & ~SUSPICION;
+        isr.quiet = isr.trip.suspects != 0 ? quiet | SUSPICION : quiet;
     }
     if (isr.latch.pins != 0) {
         look_for_latch(unusual);
-        suspects |= isr.latch.suspects;
     }
-    uint32_t quiet = isr.quiet & ~SUSPICION;
-    isr.quiet = suspects != 0 ? quiet | SUSPICION : quiet;
     return false;
 }
 
@@ -122,15 +142,15 @@ static bool HAL_RAM_FUNC(inspect)(uint32_t unusual) {
 
 // Gives the finished segment back and takes the next. Returns its ticks, 0 if there is none.
 static uint32_t HAL_RAM_FUNC(next_segment)(void) {
-    bool dry = false;
-    if (isr.current != NULL) {
-        dry = (isr.current->flags & SEGMENT_MAY_END) == 0;
-        isr.current = NULL;
+    const segment_t *finished = isr.current;
+    if (finished != NULL) {
         ring_take(&segments.ring);
         hal_governor_request();
     }
     if (ring_used(&segments.ring) == 0) {
+        isr.current = NULL;
         isr.raised = 0;
+        bool dry = finished != NULL && (finished->flags & SEGMENT_MAY_END) == 0;
         isr.dry_count = isr.dry_count + dry;
         if (isr.watched == SUSPICION) {
             hal_tick_stop();
@@ -160,7 +180,7 @@ static inline uint32_t advance_axis(segment_axis_t *axis, uint32_t steps) {
 void HAL_RAM_FUNC(hal_on_tick)(void) {
     hal_pins_clear(isr.raised);
     uint32_t unusual = (hal_pins_read() ^ isr.quiet) & isr.watched;
-    if (unusual != 0 && inspect(unusual)) {
+    if (__builtin_expect(unusual != 0, 0) && inspect(unusual)) {
         return;
     }
     uint32_t left = isr.ticks_left;
@@ -219,9 +239,14 @@ void step_isr_watch(const step_isr_inputs_t *inputs) {
     step_isr_inputs_t with_immediate = *inputs;
     with_immediate.immediate = inputs->estop_samples <= 1 ? inputs->estop : 0;
     with_immediate.immediate |= inputs->limit_samples <= 1 ? inputs->limits : 0;
+    uint32_t fewest = inputs->limit_samples;
+    if (inputs->estop_samples > 1 && inputs->estop_samples < fewest) {
+        fewest = inputs->estop_samples;
+    }
     isr.watched = isr.watched & (inputs->estop | isr.latch.pins | SUSPICION);
     RING_BARRIER();
     isr.inputs = with_immediate;
+    isr.trip.samples = (int32_t)fewest;
     watch();
 }
 
@@ -287,7 +312,7 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
 void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples) {
     step_isr_latch_disarm();
     isr.latch_levels = levels;
-    isr.latch_samples = samples;
+    isr.latch.samples = (int32_t)samples;
     isr.latch.suspects = 0;
     isr.latch.pins = pins;
     watch();
@@ -307,7 +332,7 @@ uint32_t step_isr_latch_reserve(void) {
     if (step_isr_latch_waits()) {
         return SEGMENTS;
     }
-    return isr.latch.pins != 0 ? isr.latch_samples + 1 : 0;
+    return isr.latch.pins != 0 ? (uint32_t)isr.latch.samples + 1 : 0;
 }
 
 bool step_isr_latch_waits(void) {

@@ -21,6 +21,12 @@ NAME_PLATE = PROJECT / "examples" / "nameplate.nc"
 TALK = 'DO: PRINT "some text that goes out over the line, as fast as it can": LOOP'
 
 
+# Inputs that the tick watches: E-STOP, and a switch at each end of X, Y, Z.
+ESTOP_GPIO = 15
+LIMIT_GPIOS = (16, 17, 18, 20, 21, 22)
+NOISE_US = 50  # from one pulse on a limit input to the next, each of two samples
+
+
 @dataclass(frozen=True)
 class Tick:
     """Cycles of the tick with a number of axes moving."""
@@ -54,17 +60,23 @@ class Part:
     seconds: float
 
 
-def ready(uf2: Path, blocks: int, axes: int = 4, acceleration: int = 20000) -> Emulator:
+def ready(
+    uf2: Path, blocks: int, axes: int = 4, acceleration: int = 20000, *, inputs: bool = False
+) -> Emulator:
     """A board at its prompt with this many axes set up (mm/s2) and its position known."""
     board = Emulator(uf2)
     board.connect()
     board.until("> ")
-    board.command(f"STEPPER INIT ,{blocks}")
+    for gpio in (ESTOP_GPIO, *LIMIT_GPIOS):
+        board.set_pin(gpio, 1)
+    board.command(f"STEPPER INIT ,{blocks}" + (f",GP{ESTOP_GPIO}" if inputs else ""))
     for index, name in enumerate(AXES[:axes]):
         step = STEP_GPIOS[index]
         board.command(
             f"STEPPER AXIS {name},GP{step},GP{step + 1},,,{STEPS_PER_UNIT},30000,{acceleration}"
         )
+    if inputs:
+        board.command("STEPPER HWLIMITS " + ",".join(f"GP{gpio}" for gpio in LIMIT_GPIOS))
     board.command("STEPPER POSITION HOME")
     return board
 
@@ -85,9 +97,21 @@ def start_long_move(board: Emulator, axes: int) -> None:
     board.command(f"STEPPER GC G1 {words} F{feed_per_min:.3f}")
 
 
-def tick(uf2: Path, axes: int) -> Tick:
-    """The tick while `axes` axes move; with none it runs through a dwell."""
-    with ready(uf2, 64) as board:
+def make_noise(board: Emulator, ms: int) -> None:
+    """Pulses on the limit inputs, one after the other, just too short to trip."""
+    for number in range(ms * 1000 // NOISE_US):
+        gpio = LIMIT_GPIOS[number % len(LIMIT_GPIOS)]
+        start_ns = board.now_ns + number * NOISE_US * 1000
+        board.set_pin(gpio, 0, at_ns=start_ns)
+        board.set_pin(gpio, 1, at_ns=start_ns + 20_000)
+
+
+def tick(uf2: Path, axes: int, *, inputs: bool = False, noise: bool = False) -> Tick:
+    """The tick while `axes` axes move; with none it runs through a dwell.
+
+    `inputs`: E-STOP and six limit switches are watched; `noise`: there is noise on the switches.
+    """
+    with ready(uf2, 64, inputs=inputs) as board:
         if axes > 0:
             start_long_move(board, axes)
             board.run_ms(300)  # up to speed
@@ -97,6 +121,8 @@ def tick(uf2: Path, axes: int) -> Tick:
             board.run_ms(50)
         board.clear_profile()
         board.clear_edges()
+        if noise:
+            make_noise(board, 499)
         board.run_ms(500)
         edges = Edges.from_rows(board.edges())
         rates = tuple(float((edges.of(gpio).level == 1).sum()) * 2 for gpio in STEP_GPIOS[:axes])
