@@ -1,9 +1,12 @@
-// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION. Context: main loop.
+// STEPPER RUN, CLEAR, STOP, HOLD, RESUME, OVERRIDE, JOG, ESTOP, CLOSE, POSITION. Context: main
+// loop.
 #include "basic_cmds/control.h"
 
 #include <math.h>
 
+#include "basic_cmds/basic_cmds.h"
 #include "basic_cmds/job.h"
+#include "basic_cmds/report.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
@@ -130,10 +133,11 @@ err_t control_estop(const basic_arg_t *args, size_t count) {
 // Ctrl-C asks for nothing else than what happens already.
 void control_await_stop(void) {
     stepper_stop();
-    while (stepper_active() > 0) {
+    while (report_active() > 0) {
         uint64_t until_us = hal_time_us() + STOP_LOOK_US;
         if (!basic_wait(until_us)) {
             hal_idle(until_us);
+            basic_cmds_background();
         }
     }
 }

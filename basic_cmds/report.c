@@ -169,7 +169,7 @@ static double peek_position(axis_id_t axis) {
 }
 
 // Also while a file or a line waits for room or for what it has started.
-static int64_t activity(void) {
+int report_active(void) {
     int active = stepper_active();
     return active == 0 && (gcode_busy() || gcode_job_runs()) ? 1 : active;
 }
@@ -189,7 +189,7 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
         *result = (basic_value_t){.type = BASIC_FLOAT, .number = stepper_speed()};
         return ERR_OK;
     }
-    const int64_t values[] = {activity(), stepper_status_bits(), stepper_blocks_free()};
+    const int64_t values[] = {report_active(), stepper_status_bits(), stepper_blocks_free()};
     *result = (basic_value_t){.type = BASIC_INTEGER, .integer = values[what - AXIS_COUNT]};
     return ERR_OK;
 }

@@ -5,6 +5,9 @@
 #include "basic/basic.h"
 
 err_t report_status(const basic_arg_t *args, size_t count);
+// PEEK(STEPPER ACTIVE): -1 not initialised, 1 working, 0 idle.
+int report_active(void);
+
 err_t report_buffer(const basic_arg_t *args, size_t count);
 
 // MM.CODE

@@ -9,7 +9,6 @@
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
 #include "stepper/planner.h"
-#include "stepper/rules.h"
 #include "stepper/step_isr.h"
 
 #define ENDING_US 5000u // the governor is at most half of it ahead
@@ -53,18 +52,6 @@ void machine_arm(stepper_idle_t idle) {
     governor_arm(idle == STEPPER_IDLE_DISABLE);
     hal_governor_request();
     hal_governor_unlock();
-}
-
-err_t machine_check_initialized(void) {
-    return rules_check(RULES_DO_STOP);
-}
-
-err_t machine_check_at_rest(void) {
-    return rules_check(RULES_DO_PINS);
-}
-
-err_t machine_check_queue(void) {
-    return rules_check(RULES_DO_ENTRY);
 }
 
 bool machine_executing(void) {

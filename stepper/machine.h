@@ -56,9 +56,6 @@ void machine_pass_pins_on(void);
 void machine_stop_and_wait(void);
 
 // What must be true before a call may do its work; each raises its error.
-err_t machine_check_initialized(void);
-err_t machine_check_at_rest(void);
-err_t machine_check_queue(void);
 err_t machine_check_axis(axis_id_t axis);
 
 #endif
