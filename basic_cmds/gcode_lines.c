@@ -86,7 +86,8 @@ err_t gcode_lines_dialect(const basic_arg_t *args, size_t count) {
     (void)count;
     gcode_options_t options = *gcode_options();
     options.nist = args[0].integer != 0;
-    return set_options(&options);
+    err_t err = job_check_free(); // the rest of the file would mean something else
+    return err == ERR_OK ? set_options(&options) : err;
 }
 
 err_t gcode_lines_block_delete(const basic_arg_t *args, size_t count) {

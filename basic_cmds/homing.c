@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "basic_cmds/job.h"
 #include "gcode/gcode.h"
 #include "stepper/stepper.h"
 #include "stepper/stepper_homing.h"
@@ -81,7 +82,10 @@ err_t homing_run(const basic_arg_t *args, size_t count) {
         }
         axes |= 1u << axis;
     }
-    err_t err = stepper_home(axes);
+    err_t err = job_check_free();
+    if (err == ERR_OK) {
+        err = stepper_home(axes);
+    }
     untold = untold || err == ERR_OK;
     return err;
 }

@@ -341,7 +341,9 @@ void governor_whereabouts(float *speed, float *left) {
 }
 
 void governor_hold(bool hold) {
-    jog_stop();
+    if (hold) {
+        jog_stop();
+    }
     governor.holding = hold && !governor.stopping && !jog_active();
     travel_choose_again();
 }

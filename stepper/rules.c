@@ -79,7 +79,7 @@ static err_t refuse(rules_condition_t condition) {
 
 err_t rules_check(rules_operation_t operation) {
     uint32_t forbidden = operations[operation].forbidden;
-    if (forbidden & WHEN_BUSY) {
+    if (forbidden & (WHEN_BUSY | WHEN_MOVING)) {
         machine_await_end();
     }
     machine_follow_stops();

@@ -192,10 +192,13 @@ static void print_refused(rules_operation_t operation) {
 }
 
 static void print_rules(void) {
-    printf("## What is refused when\n\n"
-           "A refused command changes nothing and does not disturb what is under way. STATUS, PEEK "
-           "and HELP always work.\n\n"
-           "| STEPPER command | is refused |\n| --- | --- |\n");
+    printf(
+        "## What is refused when\n\n"
+        "A refused command changes nothing and does not disturb what is under way. STATUS, PEEK "
+        "and HELP always work.\n"
+        "While STEPPER FILE carries a file out, lines of G-code, JOG, FILE, HOME RUN and DIALECT "
+        "are refused as well.\n\n"
+        "| STEPPER command | is refused |\n| --- | --- |\n");
     for (int i = 0; i < RULES_OPERATIONS; i++) {
         printf("| %s | ", rules_operation_text((rules_operation_t)i));
         print_refused((rules_operation_t)i);
