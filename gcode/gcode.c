@@ -5,11 +5,12 @@
 
 #include "gcode/gcode_interpreter.h"
 #include "gcode/gcode_offsets.h"
+#include "stepper/rules.h"
 
 gcode_interpreter_t gcode_live = {.sink = &gcode_machine};
 
 static err_t check_initialized(void) {
-    return stepper_active() < 0 ? err_raise(ERR_STEPPER_NOT_INITIALIZED, NULL) : ERR_OK;
+    return stepper_active() < 0 ? rules_check(RULES_DO_GCODE) : ERR_OK; // the rule is short
 }
 
 err_t gcode_line(const char *text, size_t length) {

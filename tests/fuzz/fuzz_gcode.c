@@ -77,6 +77,13 @@ static void set_up(void) {
         };
         check_ok(stepper_spindle(&spindle), "spindle");
     }
+    if (fuzz_random_percent(50)) {
+        stepper_coolant_t coolant = {.flood_gpio = 16, .mist_gpio = 17};
+        check_ok(stepper_coolant(&coolant), "coolant");
+    }
+    if (fuzz_random_percent(50)) {
+        check_ok(stepper_probe_pin(18, fuzz_random_percent(50)), "probe");
+    }
     set_up_jerk();
     if (fuzz_random_percent(30)) {
         check_ok(stepper_junction(fuzz_random_between(0, 50) / 100.0), "junction");
@@ -129,7 +136,9 @@ static bool finish_line(bool probes) {
     uint64_t until_us = hal_time_us() + (uint64_t)(SETTLE_S * 1e6);
     gcode_background();
     while (gcode_busy() && hal_time_us() < until_us) {
-        check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+        if (!gcode_must_wait()) {
+            check_ok(stepper_run(STEPPER_IDLE_HOLD), "run");
+        }
         check_ok(stepper_hold(false), "resume");
         hal_idle(hal_time_us() + 1000);
         stepper_background();

@@ -7,6 +7,7 @@
 #include "fuzz_session.h"
 #include "gcode/gcode.h"
 #include "simulate.h"
+#include "stepper/stepper_homing.h"
 
 #define TICK_NS 10000u
 
@@ -122,6 +123,7 @@ static bool wait_for_rest(double limit_s) {
     uint64_t until_us = hal_time_us() + (uint64_t)(limit_s * 1e6);
     while (fuzz_machine_is_moving() && hal_time_us() < until_us) {
         hal_idle(until_us);
+        stepper_background();
     }
     return !fuzz_machine_is_moving();
 }
@@ -148,6 +150,7 @@ bool fuzz_machine_settle(double limit_s) {
         stepper_stop();
         if (!wait_for_rest(limit_s)) {
             stepper_estop();
+            stepper_background();
         }
     }
     FUZZ_SESSION_CHECK(!fuzz_machine_is_moving(), "still moving after an emergency stop");
