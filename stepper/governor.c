@@ -276,6 +276,10 @@ void governor_set_pins(const governor_pins_t *pins) {
     segment_writer_set_dir_pins(pins->dir, pins->dir_inverted);
 }
 
+void governor_keep_enabled(uint32_t pins) {
+    governor.pins.keep_enabled = pins;
+}
+
 void governor_arm(bool idle_off) {
     governor.idle_off = idle_off;
     governor.armed = true;

@@ -18,7 +18,9 @@ typedef struct {
 
 // At rest at `steps`, disarmed, nothing to do.
 void governor_reset(const int32_t steps[AXIS_COUNT]);
-void governor_set_pins(const governor_pins_t *pins);
+void governor_set_pins(const governor_pins_t *pins); // at rest only: sets the direction pins
+// Only the inputs whose trip leaves the drivers on: in motion as well.
+void governor_keep_enabled(uint32_t pins);
 
 // From now on blocks are executed and the drivers are on: always, or with `idle_off` only while
 // there is something to do. Follow with hal_governor_request().

@@ -236,7 +236,7 @@ err_t stepper_limit_keep(bool keep_enabled) {
     err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
         limits.config.keep_enabled = keep_enabled;
-        machine_pass_pins_on();
+        machine_pass_keep_on();
     }
     return err;
 }

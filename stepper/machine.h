@@ -52,6 +52,9 @@ void machine_lose_position(uint32_t lost);
 // Makes the pins of the configuration known to tick and governor. At rest only.
 void machine_pass_pins_on(void);
 
+// The same for what leaves the drivers on, in motion as well.
+void machine_pass_keep_on(void);
+
 // Controlled stop, and waits until the machine stands.
 void machine_stop_and_wait(void);
 

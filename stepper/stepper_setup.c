@@ -18,16 +18,25 @@
 
 static const char estop_owner[] = "STEPPER E-STOP";
 
+// The inputs whose trip leaves the drivers on.
+static uint32_t keeping_pins(void) {
+    stepper_safety_t safety;
+    stepper_safety(&safety);
+    uint32_t pins = safety.keep_enabled ? limits_pins(limits_assigned()) : 0;
+    return machine.config.estop_keeps_enabled ? pins | pins_mask(machine.config.estop_gpio) : pins;
+}
+
+void machine_pass_keep_on(void) {
+    hal_governor_lock();
+    governor_keep_enabled(keeping_pins());
+    hal_governor_unlock();
+}
+
 void machine_pass_pins_on(void) {
     governor_pins_t pins = {
         .enable = axis_enable_mask(),
+        .keep_enabled = keeping_pins(),
     };
-    stepper_safety_t safety;
-    stepper_safety(&safety);
-    pins.keep_enabled = safety.keep_enabled ? limits_pins(limits_assigned()) : 0;
-    if (machine.config.estop_keeps_enabled) {
-        pins.keep_enabled |= pins_mask(machine.config.estop_gpio);
-    }
     uint32_t steps[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         steps[axis] = axis_step_mask(axis);

@@ -3,6 +3,7 @@
 #include <unity.h>
 
 #include "bench.h"
+#include "stepper/stepper_safety.h"
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -196,6 +197,20 @@ static void test_set_position_moves_the_origin(void) {
     bench_end();
 }
 
+// Settings that are allowed in motion do not touch the direction pins of what moves downwards.
+static void test_settings_in_motion_do_not_disturb_it(void) {
+    bench_start();
+    bench_move(-10, -10, 0, 0, 3000);
+    bench_wait_us(100000);
+    TEST_ASSERT_EQUAL_INT(1, stepper_active());
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_limit_keep(true));
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_filter(5, 2));
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_junction(0.1));
+    bench_finish(10);
+    bench_check_positions();
+    bench_end();
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_nothing_works_before_init);
@@ -208,5 +223,6 @@ int main(void) {
     RUN_TEST(test_a_ring_of_one_slot_works);
     RUN_TEST(test_motion_forbids_configuration_but_not_questions);
     RUN_TEST(test_set_position_moves_the_origin);
+    RUN_TEST(test_settings_in_motion_do_not_disturb_it);
     return UNITY_END();
 }
