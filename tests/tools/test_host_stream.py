@@ -12,9 +12,11 @@ import pytest
 from synthetic import PINS, traces_of
 from typer.testing import CliRunner
 
-from stepmite.board import Board, BoardError
+from stepmite.board import Board, BoardError, Cancelled
 from stepmite.cli import app
 from stepmite.gcode import read_blocks, read_lines, target_steps
+from stepmite.stream import Streamer, prepare
+from stepmite.stream_cmd import run_setup
 from stepmite.trace import Edges
 
 ROOT = Path(__file__).parents[2]
@@ -120,6 +122,44 @@ def test_ctrl_c_brings_a_controlled_stop(board, setup_file, tmp_path):
         stopped_at = prompt.peek("X")
     board.close()
     assert traces_of(board.edges(), PINS)[0].end_steps() == round(stopped_at * 80)
+
+
+PAUSES = ["G21 G90 G1 X5 F6000", "M0", "X7", "T3 M6", "X9", "M30"]
+
+
+def stream_pauses(board, setup_file, answer):
+    """Stream PAUSES; `answer` is called with the streamer at each pause. Returns what was told."""
+    told = []
+
+    def tell(line):
+        told.append(line)
+        if "STEPPER RESUME" in line:
+            answer(streamer)
+
+    with Board.open(board.device, on_notice=tell) as prompt:
+        run_setup(prompt, setup_file)
+        streamer = Streamer(prompt, prepare("part.nc", PAUSES))
+        try:
+            streamer.run()
+        finally:
+            told.append(prompt.peek("X"))
+    return told
+
+
+def test_pauses_are_ended_from_here(board, setup_file):
+    """M0 and a tool change are told and go on when the user says so."""
+    told = stream_pauses(board, setup_file, lambda streamer: streamer.resume())
+    assert sum("STEPPER RESUME" in str(line) for line in told) == 2
+    assert any("Tool 3" in str(line) for line in told)
+    assert told[-1] == 9
+
+
+def test_a_pause_lasts_until_somebody_acts(board, setup_file):
+    """Who cancels at M0 finds the machine where M0 stands."""
+    with pytest.raises(Cancelled):
+        stream_pauses(board, setup_file, lambda streamer: streamer.cancel())
+    with Board.open(board.device) as prompt:
+        assert prompt.peek("X") == 5
 
 
 def test_the_machine_must_be_set_up(board, tmp_path):

@@ -7,6 +7,7 @@ so the PRINTs tell which line was refused and nothing behind it has been execute
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -22,6 +23,10 @@ _SEPARATOR = f":?{MARK}:"
 _STATUS_POSITION_KNOWN = 1 << 7
 _STATUS_ESTOP = 1 << 6
 _POLL_S = (0.005, 0.1)
+_ANSWER_S = 60.0
+_CYCLE_S = 3600.0
+_CYCLE = re.compile(r"G0*(28|38)", re.IGNORECASE)
+"""Homing and probing: the board answers when they have ended."""
 STUCK_S = 3.0
 """A queue that stays full for so long while nothing moves is given up."""
 
@@ -136,6 +141,7 @@ class Streamer:
         self._may_arm = arm
         self._on_progress = on_progress
         self._cancel = False
+        self._resume = False
         self._credit = 0
         self._free_most = 0
         self._full_since: float | None = None
@@ -147,6 +153,10 @@ class Streamer:
     def cancel(self) -> None:
         """Ask for a controlled stop; run() raises Cancelled when the machine stands still."""
         self._cancel = True
+
+    def resume(self) -> None:
+        """Let a program go on that waits at M0 or M6; may be called from another thread."""
+        self._resume = True
 
     def run(self) -> None:
         """Send everything and wait until motion has ended.
@@ -178,7 +188,7 @@ class Streamer:
 
     def _wait_for_end(self) -> None:
         while True:
-            self._check_cancel()
+            self._check_user()
             idle = self._board.peek("ACTIVE") <= 0
             left = self._ask_for_slots() < self._free_most
             if idle and not (left and self._start_if_idle()):
@@ -200,7 +210,7 @@ class Streamer:
         if not self._may_arm:
             return False
         self._may_arm = False
-        self._board.command("STEPPER RUN")
+        self._pass_on(self._board.command("STEPPER RUN"))
         return True
 
     # ---- The queue of the board ---------------------------------------------------------------
@@ -226,7 +236,7 @@ class Streamer:
         stuck_since = None
         in_vain = 0
         while self._credit < goal:
-            self._check_cancel()
+            self._check_user()
             before = self._credit
             active = self._board.peek("ACTIVE") > 0
             self._ask_for_slots()
@@ -274,10 +284,12 @@ class Streamer:
         return batch
 
     def _send_batch(self, batch: list[Line]) -> None:
-        self._check_cancel()
+        self._check_user()
         try:
+            cycles = any(_CYCLE.search(line.code) for line in batch)
             output = self._board.command(
-                _SEPARATOR.join(_statement(line.code) for line in batch), timeout_s=60.0
+                _SEPARATOR.join(_statement(line.code) for line in batch),
+                timeout_s=_CYCLE_S if cycles else _ANSWER_S,
             )
         except BoardError as error:
             done = sum(1 for line in error.output if line.strip() == MARK)
@@ -323,9 +335,13 @@ class Streamer:
         self._board.stop()
         raise JobError(f"{self._job.name}:{line.number}: {line.text}\n{message}")
 
-    def _check_cancel(self) -> None:
+    def _check_user(self) -> None:
+        """Do what the user has asked for meanwhile."""
         if self._cancel:
             raise Cancelled
+        if self._resume:
+            self._resume = False
+            self._pass_on(self._board.command("STEPPER RESUME"))
 
     def _report(self, seconds: float) -> None:
         if self._on_progress is not None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import signal
+import sys
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -50,7 +52,7 @@ def run(
     try:
         lines = read_lines(file)
         stream.prepare(file.name, lines)
-        with Board.open(device, on_notice=lambda line: console.print(line, markup=False)) as board:
+        with Board.open(device, on_notice=lambda line: _show_notice(line, console)) as board:
             if setup is not None:
                 run_setup(board, setup)
             machine = machine_from_status(board.command("STEPPER STATUS"))
@@ -59,6 +61,13 @@ def run(
     except (stream.JobError, BoardGone, OSError) as error:
         console.print(f"Error: {error}", style="red", markup=False, highlight=False)
         return EXIT_FAILED
+
+
+def _show_notice(line: str, console: Console) -> None:
+    """Print what the board says by itself; a pause also says how it goes on from here."""
+    console.print(line, markup=False)
+    if "STEPPER RESUME" in line and sys.stdin.isatty():
+        console.print("Press Enter when the machine may go on.", style="yellow")
 
 
 def run_setup(board: Board, file: Path) -> None:
@@ -77,6 +86,7 @@ def _stream(board: Board, job: stream.Job, reserve: int, arm: bool, console: Con
         with _bar(job, console) as on_progress:
             streamer = stream.Streamer(board, job, reserve, arm, on_progress)
             with _interrupts(streamer):
+                _watch_enter(streamer)
                 streamer.run()
     except Cancelled:
         _print_stop(board, console)
@@ -118,6 +128,18 @@ def _bar(job: stream.Job, console: Console) -> Iterator:
             bar.update(task, completed=progress.seconds_done, line=number, left=clock(left))
 
         yield show
+
+
+def _watch_enter(streamer: stream.Streamer) -> None:
+    """Let Enter go on where the program waits for somebody at the machine (M0, M6)."""
+    if not sys.stdin.isatty():
+        return
+
+    def watch() -> None:
+        for _ in sys.stdin:
+            streamer.resume()
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 @contextmanager
