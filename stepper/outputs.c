@@ -52,13 +52,22 @@ static void drive(uint32_t mask, bool high) {
     hal_pins_clear(high ? 0 : mask);
 }
 
+// What is left of the period must not come when the pin is given back. A slice that stands takes a
+// level up at once.
+static void forget_period(unsigned slice) {
+    static const uint16_t from_zero[HAL_PWM_SLICES];
+    hal_pwm_stop(slice);
+    hal_pwm_level(hal_pwm_place(slice), 0);
+    hal_pwm_start(1u << slice, from_zero);
+}
+
 void outputs_spindle_off(void) {
     outputs.turn_now = STEPPER_SPINDLE_OFF;
     segment_writer_set_level(0);
     if (outputs.pwm_connected) {
         outputs.pwm_connected = false;
         hal_pin_output(outputs.spindle.gpio, outputs.spindle.invert);
-        hal_pwm_level(hal_pwm_place(HAL_PWM_SLICE(outputs.spindle.gpio)), 0);
+        forget_period(HAL_PWM_SLICE(outputs.spindle.gpio));
     }
     drive(pins_mask(outputs.spindle.gpio), outputs.spindle.invert);
 }

@@ -117,7 +117,8 @@ void hal_governor_unlock(void);
 
 typedef enum { HAL_PULL_NONE, HAL_PULL_UP, HAL_PULL_DOWN } hal_pull_t;
 
-// Makes the pin an output that starts at `level`, without a glitch. `gpio` must be a user pin.
+// Makes the pin an output that starts at `level`, without a glitch. `gpio` must be a user pin. Also
+// governor, for a pin that was an output before.
 void hal_pin_output(unsigned gpio, bool level);
 void hal_pin_input(unsigned gpio, hal_pull_t pull);
 // Back to the state after reset: input, no driver, no pull.

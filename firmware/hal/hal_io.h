@@ -45,13 +45,14 @@ typedef struct {
         phase_correct; // the counter runs up and down: half the frequency, pulses around one centre
 } hal_pwm_t;
 
-// Gives the pin to its slice.
+// Gives the pin to its slice. Also governor, for a pin that was an output before.
 void hal_pin_pwm(unsigned gpio);
 
 // Settings of a slice; while it runs, top and levels follow at the end of the period.
 void hal_pwm_set(unsigned slice, const hal_pwm_t *pwm);
 
-// Starts the slices of a mask together, each at its own count.
+// Starts the slices of a mask together, each at its own count; stops one, at count 0. Contexts:
+// main, governor.
 void hal_pwm_start(uint32_t slices, const uint16_t counts[HAL_PWM_SLICES]);
 void hal_pwm_stop(unsigned slice);
 

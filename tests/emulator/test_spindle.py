@@ -75,7 +75,15 @@ def test_emergency_stop_does_not_wait_for_the_period(board: Emulator, invert: in
     board.clear_edges()
     board.run_ms(300)
     assert board.edges([SPINDLE]) == []
-    obey(board, "STEPPER POSITION HOME", "STEPPER RUN", "STEPPER GC M3 S5000")
+    # Nor does the rest of the period come when the slice has the pin again.
+    obey(board, "STEPPER POSITION HOME", "STEPPER RUN", "STEPPER GC M3 S9900")
+    board.run_ms(20)
+    obey(board, "STEPPER ESTOP", "STEPPER POSITION HOME", "STEPPER RUN")
+    board.clear_edges()
+    obey(board, "STEPPER GC M3 S0")
+    board.run_ms(200)
+    assert (function(board), board.edges([SPINDLE])) == (FUNCTION_PWM, [])
+    obey(board, "STEPPER GC M3 S5000")
     board.run_ms(300)
     assert (level(board), function(board)) == (31_250, FUNCTION_PWM)
 

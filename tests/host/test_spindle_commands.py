@@ -1,4 +1,4 @@
-"""STEPPER SPINDLE and COOLANT, S words, pauses: what is typed, what is said, and the edges of it."""
+"""STEPPER SPINDLE and COOLANT, S words, pauses: what is typed, what is said, and the edges."""
 
 from __future__ import annotations
 

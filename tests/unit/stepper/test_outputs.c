@@ -6,6 +6,7 @@
 #include "hal/hal_io.h"
 #include "hal/slices.h"
 #include "host_clock.h"
+#include "host_pads.h"
 #include "host_pwm.h"
 #include "stepper/stepper_safety.h"
 
@@ -346,7 +347,7 @@ static void check_all_off(void) {
     TEST_ASSERT_EQUAL(STEPPER_SPINDLE_OFF, outputs_now().turn);
 }
 
-static void test_emergency_stop_turns_all_off_at_once(void) {
+static void check_emergency_stop(bool by_input) {
     for (unsigned us = 1000; us < 900000; us += 37130) { // spin-up, motion, coolant, motion
         stepper_spindle_t spindle = pwm_spindle;
         spindle.spinup_ms = 300;
@@ -359,8 +360,14 @@ static void test_emergency_stop_turns_all_off_at_once(void) {
         bench_move(40, 0, 0, 0, 6000);
         bench_wait_us(us);
         TEST_ASSERT_EQUAL_UINT(COUNTS, level());
-        TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
+        if (by_input) {
+            host_pads_drive(BENCH_ESTOP_GPIO, false);
+            bench_wait_us(20);
+        } else {
+            TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
+        }
         check_all_off();
+        host_pads_drive(BENCH_ESTOP_GPIO, true);
         bench_wait_us(2000);
         check_all_off();
         TEST_ASSERT_EQUAL_UINT32(STEPPER_BLOCKS_DEFAULT, stepper_blocks_free());
@@ -373,6 +380,30 @@ static void test_emergency_stop_turns_all_off_at_once(void) {
         TEST_ASSERT_UINT_WITHIN(100, 5000, high_us());
         bench_end();
     }
+}
+
+static void test_emergency_stop_turns_all_off_at_once(void) {
+    check_emergency_stop(false);
+}
+
+static void test_emergency_input_turns_all_off_at_once(void) {
+    check_emergency_stop(true);
+}
+
+// The clock of the spin-up stands in a feed hold.
+static void test_hold_in_the_spin_up(void) {
+    stepper_spindle_t spindle = pwm_spindle;
+    spindle.spinup_ms = 500;
+    start(&spindle);
+    switch_spindle(STEPPER_SPINDLE_CW, 2000);
+    bench_wait_us(200000);
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(true));
+    bench_wait_us(1000000);
+    TEST_ASSERT_EQUAL_INT(1, stepper_active());
+    TEST_ASSERT_EQUAL_UINT(COUNTS / 5, level());
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(false));
+    TEST_ASSERT_DOUBLE_WITHIN(0.003, 0.3, bench_finish(1));
+    bench_end();
 }
 
 static void test_controlled_stop_and_hold_leave_the_spindle(void) {
@@ -637,6 +668,8 @@ int main(void) {
     RUN_TEST(test_speed_of_a_move_too_short_to_be_queued);
     RUN_TEST(test_speed_counts_only_while_it_is_on);
     RUN_TEST(test_emergency_stop_turns_all_off_at_once);
+    RUN_TEST(test_emergency_input_turns_all_off_at_once);
+    RUN_TEST(test_hold_in_the_spin_up);
     RUN_TEST(test_controlled_stop_and_hold_leave_the_spindle);
     RUN_TEST(test_pause_holds_in_place);
     RUN_TEST(test_pause_as_the_last_entry_and_stops_in_it);
