@@ -33,6 +33,7 @@ static struct {
     const block_t *block; // being executed, NULL: none
     uint64_t progress;    // in 2^-64 of its length
     float per_length;     // 2^64 / length
+    float length_part;    // length / 2^64
     float top_speed;      // allowed in it, units/s
     uint32_t overrides;   // for which that was found
     float speed;          // along the path now, units/s
@@ -47,7 +48,7 @@ static struct {
 // ---- The way along a move -----------------------------------------------------------------------
 
 static float remaining(void) {
-    return (float)~travel.progress * (travel.block->move.length / PROGRESS_ONE);
+    return (float)~travel.progress * travel.length_part;
 }
 
 // Adds a piece in which the speed changes to `end_speed` to the way that has no segment yet.
@@ -84,6 +85,7 @@ void travel_begin(const block_t *block) {
     segment_writer_set_level(block->level);
     travel.progress = 0;
     travel.per_length = PROGRESS_ONE / block->move.length;
+    travel.length_part = block->move.length / PROGRESS_ONE;
     float top_speed = planner_top_speed(block);
     bool faster = top_speed > 1.01f * travel.top_speed && travel.choice_ticks > CHOSEN_TICKS;
     travel.top_speed = top_speed;
