@@ -152,7 +152,7 @@ axis Y step=GP5 dir=GP6
 axis Z step=GP8 dir=GP9
 switch pin=GP16 axis=X to=-80
 switch pin=GP17 axis=Y to=-80
-switch pin=GP18 axis=Z to=-400
+switch pin=GP18 axis=Z to=-4000
 """
 """The axes of examples/machine.bas with a switch below each."""
 
@@ -160,9 +160,19 @@ TO_TRY_CODES_WITH = [
     "STEPPER SPINDLE GP14,0,12000,0,1000,0,GP15",
     "STEPPER COOLANT GP20,GP21",
     "STEPPER HWLIMITS GP16,GP17,GP18",
+    "STEPPER PROBE GP19",
     "STEPPER RUN",
     "STEPPER GC F600",
 ]
+WITH_WORDS = {
+    "G38.2": "G38.3 Z-1",  # without a probe to touch the others are errors
+    "G38.5": "G38.3 Z-2",
+    "G73": "G73 Z-1 R1 Q1",
+    "G81": "G81 Z-1 R1",
+    "G82": "G82 Z-1 R1 P10",
+    "G83": "G83 Z-1 R1 Q1",
+}
+"""What codes are tried with that mean nothing alone."""
 
 
 def test_the_g_codes_of_the_guide_are_understood(tmp_path: Path) -> None:
@@ -179,7 +189,11 @@ def test_the_g_codes_of_the_guide_are_understood(tmp_path: Path) -> None:
     world = tmp_path / "machine.txt"
     world.write_text(SWITCHES)
     for row in rows:
-        lines = [*setup, *TO_TRY_CODES_WITH, *(f"STEPPER GC {code}" for code in row)]
+        lines = [
+            *setup,
+            *TO_TRY_CODES_WITH,
+            *(f"STEPPER GC {WITH_WORDS.get(code, code)}" for code in row),
+        ]
         answers = converse([*lines, "STEPPER STOP"], "--machine", str(world))
         for line, answer in zip(lines, answers, strict=False):
             assert not failed(answer), (line, answer)
