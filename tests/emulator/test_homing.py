@@ -60,4 +60,4 @@ def test_ctrl_c_ends_homing(board: Emulator) -> None:
     board.output()  # it may tell how homing ended
     assert command(board, "PRINT PEEK(STEPPER ACTIVE)") == "0"
     assert command(board, "STEPPER GC G28 X0") == ""
-    assert board.axis("X") == 80
+    assert board.axis("X") == 240

@@ -115,6 +115,26 @@ static void test_the_first_approach_is_exact_without_a_second(void) {
     }
 }
 
+// Contacts that bounce for as long as an axis takes to back off.
+static void test_slow_contacts_on_a_short_way(void) {
+    simulate_switch_t *x_min = &homing_switches[SWITCH_X_MIN];
+    const uint32_t usual_us = x_min->bounce_us;
+    stepper_home_t wanted = plain;
+    wanted.pull_off_mm = 0.1;
+    wanted.latch = 30.0;
+    for (int round = 0; round < 30; round++) {
+        homing_bench_start(false);
+        x_min->bounce_us = 16000;
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
+        homing_bench_put(AXIS_X, round % 2 == 0 ? 500 + 17 * round : -5 * round);
+        home(1u << AXIS_X, 40);
+        TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
+        TEST_ASSERT_EQUAL_INT64(8, bench.motors[AXIS_X].position_steps);
+        bench_end();
+    }
+    x_min->bounce_us = usual_us;
+}
+
 // ---- Order and groups ---------------------------------------------------------------------------
 
 // The groups in which the axes are homed, as digits of a number: 4 for Z, 1 for X, 2 for Y.
@@ -167,14 +187,18 @@ static void test_order_and_groups(void) {
 // Both switches close within the way that braking takes, in all distances from each other.
 static void test_two_axes_that_arrive_together_disturb_each_other_not(void) {
     const uint8_t order[] = {3, 0, 0};
+    stepper_home_t wanted = plain;
+    wanted.pull_off_mm = 0.5; // less than the way of braking
     for (int apart = -300; apart <= 300; apart += 13) {
         homing_bench_start(false);
         homing_bench_put(AXIS_X, 3000);
         homing_bench_put(AXIS_Y, 3000 + apart);
         TEST_ASSERT_EQUAL(ERR_OK, stepper_home_order(order));
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_Y, &wanted));
         home(3, 40);
-        check_x_home();
-        TEST_ASSERT_EQUAL_INT64(PULL_OFF_X, bench.motors[AXIS_Y].position_steps);
+        TEST_ASSERT_EQUAL_INT64(40, bench.motors[AXIS_X].position_steps);
+        TEST_ASSERT_EQUAL_INT64(40, bench.motors[AXIS_Y].position_steps);
         TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_Y));
         bench_end();
     }
@@ -218,6 +242,29 @@ static void test_a_lost_position_is_lost_for_all_axes(void) {
     home(6, 40);
     TEST_ASSERT_TRUE(is_known());
     bench_end();
+}
+
+// The switches of the axes that were homed trip again, however it ended.
+static void test_switches_are_watched_behind_it(void) {
+    for (unsigned how = 0; how < 3; how++) {
+        homing_bench_start(true);
+        stepper_home_t wanted = plain;
+        wanted.max_travel_mm = how == 1 ? 20.0 : 100.0; // of the 50 mm to the switch
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
+        if (how == 2) {
+            homing_bench_reach(AXIS_X, "approaching the switch", 200000);
+            stepper_stop();
+        }
+        err_t ended = homing_bench_finish(20);
+        TEST_ASSERT_EQUAL(how == 0 ? ERR_OK : ERR_HOMING_FAILED, ended);
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_set_home());
+        bench_move(-60, 0, 0, 0, 6000);
+        bench_wait_us(3000000);
+        TEST_ASSERT_EQUAL(STEPPER_ALARM_LIMIT, stepper_alarm());
+        TEST_ASSERT_EQUAL_INT64(0, bench.motors[AXIS_X].position_steps);
+        bench_end();
+    }
 }
 
 // ---- Before and behind it -----------------------------------------------------------------------
@@ -306,10 +353,12 @@ int main(void) {
     RUN_TEST(test_the_maximum_and_a_home_position);
     RUN_TEST(test_feeds_are_those_of_the_configuration_whatever_the_override);
     RUN_TEST(test_the_first_approach_is_exact_without_a_second);
+    RUN_TEST(test_slow_contacts_on_a_short_way);
     RUN_TEST(test_order_and_groups);
     RUN_TEST(test_two_axes_that_arrive_together_disturb_each_other_not);
     RUN_TEST(test_the_position_is_known_when_all_that_can_be_homed_is);
     RUN_TEST(test_a_lost_position_is_lost_for_all_axes);
+    RUN_TEST(test_switches_are_watched_behind_it);
     RUN_TEST(test_the_queue_is_executed_before);
     RUN_TEST(test_disarmed_it_turns_the_drivers_on_and_leaves_them_on);
     RUN_TEST(test_drivers_stay_on_between_its_moves);
