@@ -124,3 +124,25 @@ def test_noise_does_not_trip_a_limit(board: Emulator) -> None:
     board.run_ms(1000)
     assert "Alarm: none" in board.command("STEPPER STATUS")
     assert counted(board, dirs) == {"X": 0, "Y": 0, "Z": 0, "A": -20 * SCALE}
+
+
+def test_a_line_being_typed_is_whole_behind_the_messages(board: Emulator) -> None:
+    """Both lines of a trip stand above it, and it is carried out as typed."""
+    for pin in (ESTOP, LIMIT):
+        board.set_pin(pin, 1)
+    for line in SETUP:
+        command(board, line)
+    for limit in (True, False):
+        begin(board)
+        board.run_ms(20)
+        board.output()
+        board.send("PRINT 6*")
+        board.run_ms(20)
+        board.set_pin(LIMIT if limit else ESTOP, 0)
+        board.run_ms(20)
+        board.set_pin(LIMIT if limit else ESTOP, 1)
+        told = board.output()
+        assert told.count(" trip") == 1
+        assert told.endswith("> PRINT 6*")
+        board.send("7\r")
+        board.expect(r"\n 42\r\n> $")

@@ -151,10 +151,9 @@ def typed(
     code: int | None = 0,
 ) -> Session:
     """Type the lines one after the other; `events` happen at their times."""
-    trace, inputs, machine = folder / "edges.csv", folder / "events.csv", folder / "machine.txt"
+    trace, machine = folder / "edges.csv", folder / "machine.txt"
     machine.write_text("".join(row + "\n" for row in machine_rows(switches)))
-    rows = sorted(events, key=lambda event: event.ms)
-    inputs.write_text("time_ns,gpio,level\n" + "".join(event.row() + "\n" for event in rows))
+    inputs = write_events(folder / "events.csv", events)
     text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
     done = subprocess.run(
         [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs, "--machine", machine],
@@ -175,12 +174,27 @@ def typed(
     return Session(answers, times, Edges.read(trace), output)
 
 
-def program(folder: Path, text: str, *, keys: str = "", code: int | None = 0) -> Session:
+def write_events(file: Path, events: list[Event] | tuple) -> Path:
+    """Write the events in their order, for --inputs."""
+    rows = sorted(events, key=lambda event: event.ms)
+    file.write_text("time_ns,gpio,level\n" + "".join(event.row() + "\n" for event in rows))
+    return file
+
+
+def program(
+    folder: Path,
+    text: str,
+    *,
+    keys: str = "",
+    events: list[Event] | tuple = (),
+    code: int | None = 0,
+) -> Session:
     """Run a BASIC program from a file; its whole output is the one answer."""
     source, trace = folder / "program.bas", folder / "edges.csv"
     source.write_text(text)
+    inputs = write_events(folder / "events.csv", events)
     done = subprocess.run(
-        [STEPMITE, "--virtual", "--trace", trace, source],
+        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs, source],
         input=keys.encode(),
         capture_output=True,
         timeout=DEADLINE_S,
