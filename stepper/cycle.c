@@ -1,6 +1,7 @@
 // Cycles: what homing and probing have in common. Context: main loop.
 #include "stepper/cycle.h"
 
+#include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/governor.h"
 #include "stepper/homing.h"
@@ -153,41 +154,55 @@ static void letters_of(uint32_t mask, char text[STEPPER_HOME_AXES + 1]) {
     text[length] = '\0';
 }
 
-// The first %s: the axes, the second: what they were doing or which switch.
-static const char *const homing_texts[] = {
-    [CYCLE_STOPPED] = "%s stopped while %s",
-    [CYCLE_TRIPPED] = "%s ended by an emergency stop or a limit switch while %s",
-    [CYCLE_TOO_FAR] = "%s failed: its position is too far from zero for more travel",
-};
-
 static const char *const probing_texts[] = {
     [CYCLE_STOPPED] = "stopped",
-    [CYCLE_TRIPPED] = "ended by an emergency stop or a limit switch",
     [CYCLE_NO_CONTACT] = "failed: no contact before the target",
     [CYCLE_CONTACT_KEPT] = "failed: contact not lost before the target",
     [CYCLE_CONTACT_BEFORE] = "failed: the probe has contact already",
     [CYCLE_NO_CONTACT_BEFORE] = "failed: the probe has no contact to lose",
 };
 
+// What has stopped the machine at once.
+static const char *trip_name(char names[ALARM_NAMES_SIZE]) {
+    return machine.alarm ? alarm_names(names) : "emergency stop";
+}
+
 static err_t raise_homing(void) {
     char letters[STEPPER_HOME_AXES + 1];
+    char names[ALARM_NAMES_SIZE];
     letters_of(cycle.end_axes, letters);
-    if (cycle.end != CYCLE_NEVER_CLOSED && cycle.end != CYCLE_NEVER_OPENED) {
-        return err_raise(ERR_HOMING_FAILED, homing_texts[cycle.end], letters, cycle.end_phase);
+    switch (cycle.end) {
+    case CYCLE_STOPPED:
+        return err_raise(ERR_HOMING_FAILED, "%s stopped while %s", letters, cycle.end_phase);
+    case CYCLE_TRIPPED:
+        return err_raise(ERR_HOMING_FAILED, "%s failed: %s while %s", letters, trip_name(names),
+                         cycle.end_phase);
+    case CYCLE_TOO_FAR:
+        return err_raise(ERR_HOMING_FAILED,
+                         "%s failed: its position is too far from zero for more travel", letters);
+    case CYCLE_EITHER_END:
+        return err_raise(ERR_HOMING_FAILED,
+                         "%s failed: it stands on the switch of either end - jog off it", letters);
+    default:
+        return err_raise(ERR_HOMING_FAILED, "%s failed: the switch %s_%s %s %.4g mm while %s",
+                         letters, letters, cycle.end_max ? "MAX" : "MIN",
+                         cycle.end == CYCLE_NEVER_CLOSED ? "never closed within"
+                                                         : "did not open within",
+                         (double)cycle.end_mm, cycle.end_phase);
     }
-    return err_raise(ERR_HOMING_FAILED, "%s failed: the switch %s_%s %s %.4g mm while %s", letters,
-                     letters, cycle.end_max ? "MAX" : "MIN",
-                     cycle.end == CYCLE_NEVER_CLOSED ? "never closed within"
-                                                     : "did not open within",
-                     (double)cycle.end_mm, cycle.end_phase);
+}
+
+static err_t raise_probing(void) {
+    char names[ALARM_NAMES_SIZE];
+    if (cycle.end == CYCLE_TRIPPED) {
+        return err_raise(ERR_PROBING_FAILED, "failed: %s", trip_name(names));
+    }
+    return err_raise(ERR_PROBING_FAILED, "%s", probing_texts[cycle.end]);
 }
 
 err_t stepper_cycle_result(void) {
     if (cycle.last == STEPPER_CYCLE_NONE || cycle.end == CYCLE_DONE) {
         return ERR_OK;
     }
-    if (cycle.last == STEPPER_CYCLE_HOMING) {
-        return raise_homing();
-    }
-    return err_raise(ERR_PROBING_FAILED, "%s", probing_texts[cycle.end]);
+    return cycle.last == STEPPER_CYCLE_HOMING ? raise_homing() : raise_probing();
 }

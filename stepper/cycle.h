@@ -12,6 +12,7 @@ typedef enum {
     CYCLE_STOPPED,        // somebody asked for a stop
     CYCLE_TRIPPED,        // an emergency stop or a limit switch
     CYCLE_TOO_FAR,        // steps do not fit
+    CYCLE_EITHER_END,     // it stands on a switch of which nobody knows at which end it is
     CYCLE_NEVER_CLOSED,   // the switch, within so many mm
     CYCLE_NEVER_OPENED,   // the same
     CYCLE_NO_CONTACT,     // the probe, before the target

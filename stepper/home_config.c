@@ -64,8 +64,48 @@ bool home_config_switch(axis_id_t axis, home_switch_t *found) {
                  (end == STEPPER_HOME_AUTO && (assigned & switch_bit(axis, false)) == 0);
     found->bit = switch_bit(axis, found->max);
     found->pin = limits_pins(found->bit);
+    found->shared = (limits_switches(found->pin) & ~found->bit) != 0;
     found->high = (limits_levels() & found->pin) != 0;
     return (assigned & found->bit) != 0;
+}
+
+home_switch_t home_config_switch_of(axis_id_t axis) {
+    home_switch_t found;
+    home_config_switch(axis, &found);
+    return found;
+}
+
+bool home_config_is_closed(axis_id_t axis) {
+    home_switch_t found = home_config_switch_of(axis);
+    return ((hal_pins_read() & found.pin) != 0) == found.high;
+}
+
+uint32_t home_config_closed(uint32_t group) {
+    uint32_t closed = 0;
+    for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
+        bool is_one = ((group >> axis) & 1) && home_config_is_closed(axis);
+        closed |= (uint32_t)is_one << axis;
+    }
+    return closed;
+}
+
+axis_id_t home_config_on_either_end(uint32_t group) {
+    uint32_t closed = home_config_closed(group);
+    axis_id_t axis = 0;
+    while (axis < STEPPER_HOME_AXES &&
+           !(((closed >> axis) & 1) && home_config_switch_of(axis).shared)) {
+        axis++;
+    }
+    return axis;
+}
+
+err_t home_config_check(axis_id_t axis) {
+    home_switch_t found;
+    err_t err = machine_check_axis(axis);
+    if (err == ERR_OK && !home_config_switch(axis, &found)) {
+        err = err_raise(ERR_HOME_NO_SWITCH, "%c has no home switch", STEPPER_AXIS_LETTERS[axis]);
+    }
+    return err;
 }
 
 bool home_config_latch_is_set(axis_id_t axis) {

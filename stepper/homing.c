@@ -66,28 +66,9 @@ static struct {
 
 // ---- The switches -------------------------------------------------------------------------------
 
-static home_switch_t switch_of(axis_id_t axis) {
-    home_switch_t found;
-    home_config_switch(axis, &found);
-    return found;
-}
-
-static bool is_closed(axis_id_t axis) {
-    home_switch_t found = switch_of(axis);
-    return ((hal_pins_read() & found.pin) != 0) == found.high;
-}
-
-static uint32_t closed_of(uint32_t group) {
-    uint32_t closed = 0;
-    FOR_AXES(axis, group) {
-        closed |= (uint32_t)is_closed(axis) << axis;
-    }
-    return closed;
-}
-
 // Units that the axis's coordinate grows by in a mm towards its switch.
 static double direction(axis_id_t axis) {
-    return switch_of(axis).max ? 1.0 : -1.0;
+    return home_config_switch_of(axis).max ? 1.0 : -1.0;
 }
 
 static void arm_hook(bool on) {
@@ -117,7 +98,7 @@ static double reach(axis_id_t axis, const stepper_home_t *home) {
 // The axes that take part.
 static uint32_t who(phase_t phase) {
     if (phase == PHASE_LEAVE) {
-        return closed_of(homing.group);
+        return home_config_closed(homing.group);
     }
     uint32_t refining = 0;
     FOR_AXES(axis, homing.group) {
@@ -167,7 +148,7 @@ static void search(void) {
     uint32_t pins = 0;
     uint32_t levels = 0;
     FOR_AXES(axis, moving) {
-        home_switch_t found = switch_of(axis);
+        home_switch_t found = home_config_switch_of(axis);
         pins |= found.pin;
         levels |= found.high == row->towards ? found.pin : 0;
         homing.start[axis] = target[axis];
@@ -231,7 +212,7 @@ static void use_up(uint32_t moved) {
 // is active high. Whoever has chosen a latch feed has a switch.
 static void notice_stalls(uint32_t moved) {
     FOR_AXES(axis, moved & ~(uint32_t)homing.todo) {
-        bool opened = switch_of(axis).high && !is_closed(axis);
+        bool opened = home_config_switch_of(axis).high && !home_config_is_closed(axis);
         homing.stalls |= (uint8_t)((opened && !home_config_latch_is_set(axis)) << axis);
     }
 }
@@ -250,7 +231,8 @@ static void end_search(void) {
     }
     FOR_AXES(axis, moved) {
         // Another one may have met its switch while all braked: behind the place where it was then.
-        if ((switch_of(axis).pin & pins) != 0 || is_closed(axis) == row->towards) {
+        if ((home_config_switch_of(axis).pin & pins) != 0 ||
+            home_config_is_closed(axis) == row->towards) {
             homing.place[axis] = places[axis];
             homing.todo &= (uint8_t)~(1u << axis);
         }
@@ -261,7 +243,7 @@ static void end_search(void) {
 }
 
 static void end_leaving(void) {
-    uint32_t closed = closed_of(homing.todo);
+    uint32_t closed = home_config_closed(homing.todo);
     if (closed != 0) {
         axis_id_t axis = first_of(closed);
         stepper_home_t home;
@@ -277,10 +259,15 @@ static void end_leaving(void) {
 static void begin_group(void) {
     homing.group = (uint8_t)home_config_next(homing.wanted);
     homing.stalls = 0;
+    axis_id_t unsure = home_config_on_either_end(homing.group);
+    if (unsure < STEPPER_HOME_AXES) {
+        cycle_end(CYCLE_EITHER_END, 1u << unsure, 0.0);
+        return;
+    }
     machine_lose_position(homing.group);
     uint32_t switches = 0;
     FOR_AXES(axis, homing.group) {
-        switches |= switch_of(axis).bit;
+        switches |= home_config_switch_of(axis).bit;
     }
     limits_except(switches);
     enter(PHASE_LEAVE);
@@ -341,6 +328,9 @@ void homing_advance(void) {
     if (homing.group == 0) {
         begin_group();
     }
+    if (homing.group == 0) {
+        return; // it was refused
+    }
     while (homing.todo == 0 && homing.phase + 1 < PHASES) {
         enter(homing.phase + 1);
     }
@@ -353,19 +343,10 @@ void homing_advance(void) {
 
 // ---- Beginning and end --------------------------------------------------------------------------
 
-static err_t check_axis(axis_id_t axis) {
-    home_switch_t found;
-    err_t err = machine_check_axis(axis);
-    if (err == ERR_OK && !home_config_switch(axis, &found)) {
-        err = err_raise(ERR_HOME_NO_SWITCH, "%c has no home switch", STEPPER_AXIS_LETTERS[axis]);
-    }
-    return err;
-}
-
 err_t stepper_home(uint32_t wanted) {
     err_t err = rules_check(RULES_DO_HOME);
     FOR_AXES(axis, wanted) {
-        err = err == ERR_OK ? check_axis(axis) : err;
+        err = err == ERR_OK ? home_config_check(axis) : err;
     }
     if (err != ERR_OK) {
         return err;

@@ -156,6 +156,33 @@ static void test_an_axis_too_far_from_zero(void) {
     check_in_order(true);
 }
 
+// Both ends on one pin: homing works, but not from a switch that is pressed already, since leaving
+// it could be running into the other end.
+static void test_a_switch_for_both_ends(void) {
+    for (unsigned pressed = 0; pressed < 2; pressed++) {
+        homing_bench_start(false);
+        homing_bench_put(AXIS_X, pressed ? -100 : 1000);
+        stepper_hwlimits_t switches = {.active_high = 0};
+        memset(switches.gpio, PINS_NONE, sizeof switches.gpio);
+        switches.gpio[STEPPER_X_MIN] = switches.gpio[STEPPER_X_MAX] = 16;
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_hwlimits(&switches));
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
+        const uint64_t pulses = bench.motors[AXIS_X].pulses;
+        if (pressed) {
+            TEST_ASSERT_EQUAL(ERR_HOMING_FAILED, homing_bench_finish(20));
+            TEST_ASSERT_EQUAL_STRING(
+                "Homing X failed: it stands on the switch of either end - jog off it",
+                err_message());
+            TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
+            check_in_order(true);
+        } else {
+            TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
+            TEST_ASSERT_EQUAL_INT64(PULL_OFF_X, bench.motors[AXIS_X].position_steps);
+            bench_end();
+        }
+    }
+}
+
 // The failure of one axis is told as that of the group's axis that it is.
 static void test_of_a_group_the_axis_that_failed_is_named(void) {
     homing_bench_start(false);
@@ -228,9 +255,7 @@ static void test_an_emergency_stop_ends_it_at_once(void) {
         TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
         TEST_ASSERT_FALSE(drivers_on());
         char said[120];
-        format_text(said, sizeof said,
-                    "Homing X ended by an emergency stop or a limit switch while %s",
-                    phases[phase]);
+        format_text(said, sizeof said, "Homing X failed: emergency stop while %s", phases[phase]);
         check_failure(said, false);
     }
 }
@@ -241,6 +266,9 @@ static void test_the_estop_input_ends_it_at_the_next_tick(void) {
         host_pads_drive(BENCH_ESTOP_GPIO, false);
         const uint64_t pressed_ns = host_clock_now_ns();
         TEST_ASSERT_EQUAL(ERR_HOMING_FAILED, homing_bench_finish(5));
+        char said[80];
+        format_text(said, sizeof said, "Homing X failed: E-STOP while %s", phases[phase]);
+        TEST_ASSERT_EQUAL_STRING(said, err_message());
         bench_wait_us(100000);
         TEST_ASSERT_LESS_OR_EQUAL_UINT64(pressed_ns + 10000, bench.last_step_ns);
         TEST_ASSERT_FALSE(drivers_on());
@@ -258,6 +286,10 @@ static void test_another_limit_switch_trips(void) {
         host_pads_drive(homing_switches[SWITCH_X_MAX].gpio, false);
         const uint64_t pressed_ns = host_clock_now_ns();
         TEST_ASSERT_EQUAL(ERR_HOMING_FAILED, homing_bench_finish(5));
+        char said[100];
+        format_text(said, sizeof said, "Homing X failed: Limit switch X_MAX while %s",
+                    phases[phase]);
+        TEST_ASSERT_EQUAL_STRING(said, err_message());
         bench_wait_us(100000);
         TEST_ASSERT_LESS_OR_EQUAL_UINT64(pressed_ns + 40000, bench.last_step_ns);
         TEST_ASSERT_EQUAL(STEPPER_ALARM_LIMIT, stepper_alarm());
@@ -407,6 +439,7 @@ int main(void) {
     RUN_TEST(test_a_switch_that_breaks_before_the_second_approach);
     RUN_TEST(test_a_switch_that_sticks_in_the_second_approach);
     RUN_TEST(test_an_axis_too_far_from_zero);
+    RUN_TEST(test_a_switch_for_both_ends);
     RUN_TEST(test_of_a_group_the_axis_that_failed_is_named);
     RUN_TEST(test_a_disturbance_is_no_home_position);
     RUN_TEST(test_a_pulse_shorter_than_the_filter_is_nothing);

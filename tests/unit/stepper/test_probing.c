@@ -199,7 +199,7 @@ static void test_stops(void) {
     stepper_background();
     bench_wait_us(300000);
     host_pads_drive(BENCH_ESTOP_GPIO, false);
-    check_failure("Probing ended by an emergency stop or a limit switch");
+    check_failure("Probing failed: E-STOP");
     host_pads_drive(BENCH_ESTOP_GPIO, true);
     TEST_ASSERT_FALSE(stepper_status_bits() & STEPPER_STATUS_POSITION_KNOWN);
     bench_end();
