@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from motion_checks import hardest_acceleration
-from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, SPINDLE, WAIT, typed
+from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, SPINDLE, WAIT, Switch, typed
 
 MOVE = "STEPPER GC G1 X50 F3000"
 
@@ -133,3 +133,40 @@ def test_path_modes(form: str, code: str, tmp_path: Path) -> None:
     session = typed(tmp_path, *READY, form.format(code), "STEPPER STATUS")
     assert session.errors() == []
     assert f"Path mode: {code}" in session.last
+
+
+@pytest.mark.parametrize("arguments", ["0.1,64", "64,0.1", "64", ",64"])
+def test_init_takes_its_first_two_in_either_order(arguments: str, tmp_path: Path) -> None:
+    """What is a size is the size, what is a tolerance the tolerance."""
+    session = typed(
+        tmp_path, f"STEPPER INIT {arguments}", "PRINT PEEK(STEPPER BUFFER)", "STEPPER STATUS"
+    )
+    assert session.errors() == []
+    assert session.number(-2) == 64
+    tolerance = "0.1" if "0.1" in arguments else "0.05"
+    assert f"arc tolerance: {tolerance} mm" in session.last
+
+
+def test_g28_behind_a_limit_trip(tmp_path: Path) -> None:
+    """The message says to home, and G28 does so with drivers that the trip has turned off."""
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        "STEPPER HWLIMITS GP16",
+        "STEPPER POSITION HOME",
+        "STEPPER RUN",
+        "STEPPER GC G1 X-20 F3000",
+        "PAUSE 2000",
+        "PRINT PEEK(STEPPER STATUS) AND 128",
+        "STEPPER GC G28 X",
+        "STEPPER RUN",
+        "STEPPER GC G1 X5 F600",
+        WAIT,
+        "PRINT PEEK(STEPPER X); PEEK(STEPPER STATUS) AND 129",
+        switches=[Switch(16, "X", -10)],
+    )
+    assert session.errors() == []
+    assert session.number(-6) == 0
+    assert session.numbers() == [5, 128]
+    assert session.end("X") == pytest.approx(-10 + 3 + 5, abs=0.05)
+    assert session.level(ENABLE_X) == 0
