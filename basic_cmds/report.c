@@ -43,6 +43,8 @@ static void print_axis(axis_id_t axis) {
     double min, max;
     if (stepper_axis_limits(axis, &min, &max)) {
         basic_printf("%c limits: %.3f to %.3f %s\n", name, min, max, unit);
+    } else if (axis != AXIS_A) {
+        basic_printf("%c limits: none (STEPPER LIMITS)\n", name);
     }
 }
 

@@ -44,24 +44,35 @@ static uint32_t bit(bool holds, rules_condition_t condition) {
     return holds ? 1u << condition : 0;
 }
 
-// What holds now.
-static uint32_t find_state(void) {
-    if (!machine.initialized) {
-        return WHEN_NOT_INITIALIZED;
-    }
-    bool jogging = jog_active();
+// Conditions that lines and arcs do not ask for, whose check has to be quick.
+#define SELDOM                                                                                     \
+    (WHEN_ESTOP | WHEN_MOVING | WHEN_JOB | WHEN_BUSY | WHEN_ARMED | WHEN_NOT_ARMED | WHEN_WAITING)
+
+static uint32_t find_seldom(void) {
     bool working = governor_working();
     bool queued = ring_used(&blocks.ring) > 0;
     bool armed = governor_armed();
-    return WHEN_INITIALIZED | bit(machine_estop_asserted(), RULES_ESTOP) |
-           bit(machine.alarm, RULES_ALARM) |
-           bit(stepper_cycle() != STEPPER_CYCLE_NONE, RULES_CYCLE) |
-           bit(machine_stopping(), RULES_STOPPING) | bit(jogging, RULES_JOGGING) |
-           bit(working, RULES_MOVING) | bit(queued && !jogging, RULES_JOB) |
-           bit(working || queued, RULES_BUSY) | bit(machine.limit_active, RULES_LIMIT) |
+    return bit(machine_estop_asserted(), RULES_ESTOP) | bit(working, RULES_MOVING) |
+           bit(queued && !jog_active(), RULES_JOB) | bit(working || queued, RULES_BUSY) |
            bit(armed, RULES_ARMED) | bit(!armed, RULES_NOT_ARMED) |
-           bit(queued && !armed, RULES_WAITING) | bit(!machine.position_known, RULES_POSITION) |
-           bit(moves_free() == 0, RULES_FULL);
+           bit(queued && !armed, RULES_WAITING);
+}
+
+// Those of the asked conditions that hold now.
+static uint32_t find_state(uint32_t asked) {
+    if (!machine.initialized) {
+        return asked & WHEN_NOT_INITIALIZED;
+    }
+    uint32_t state = WHEN_INITIALIZED | bit(machine.alarm, RULES_ALARM) |
+                     bit(stepper_cycle() != STEPPER_CYCLE_NONE, RULES_CYCLE) |
+                     bit(machine_stopping(), RULES_STOPPING) | bit(jog_active(), RULES_JOGGING) |
+                     bit(machine.limit_active, RULES_LIMIT) |
+                     bit(!machine.position_known, RULES_POSITION) |
+                     bit(moves_free() == 0, RULES_FULL);
+    if (asked & SELDOM) {
+        state |= find_seldom();
+    }
+    return asked & state;
 }
 
 static err_t refuse(rules_condition_t condition) {
@@ -83,7 +94,7 @@ err_t rules_check(rules_operation_t operation) {
         machine_await_end();
     }
     machine_follow_stops();
-    uint32_t found = forbidden & find_state();
+    uint32_t found = find_state(forbidden);
     if (found == 0) {
         return ERR_OK;
     }

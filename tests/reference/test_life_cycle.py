@@ -174,3 +174,66 @@ def test_run_mode_1_turns_drivers_off_between_jobs(tmp_path: Path) -> None:
         assert move[-1] < times[off]
         assert move[0] - times[on] > 20e-6, "time for the driver to wake up"
     assert session.level(ENABLE_X) == 0
+
+
+FILE = (
+    'OPEN "f.nc" FOR OUTPUT AS #1 : FOR i = 1 TO 99 : PRINT #1, "G1 X"; i; "F3000" : NEXT : CLOSE'
+)
+HOMING = [
+    "STEPPER HWLIMITS GP16,GP17,GP18",
+    "STEPPER HOME X,,3000",
+    "STEPPER HOME RUN X",
+    "PAUSE 500",
+]
+BACKGROUND = {"a file": ['STEPPER FILE "f.nc"', "PAUSE 500"], "homing": HOMING}
+"""What may be under way in the background."""
+
+
+@pytest.mark.parametrize("what", BACKGROUND)
+@pytest.mark.parametrize(
+    "ending", ["RUN", "NEW", "STEPPER CLOSE", "STEPPER STOP", "STEPPER RECOVER", "PRINT 1\x03"]
+)
+def test_nothing_runs_on_in_the_background(what: str, ending: str, tmp_path: Path) -> None:
+    """A file and homing end with the motion, by a controlled stop, and can be begun again."""
+    work = [*READY, *BACKGROUND[what]]
+    session = typed(
+        tmp_path,
+        stored("PRINT PEEK(STEPPER ACTIVE)"),
+        FILE,
+        *work,
+        ending,
+        "PAUSE 300",
+        "?PEEK(STEPPER ACTIVE)",
+        "STEPPER CLOSE : PRINT" if ending.startswith(("STEPPER S", "STEPPER R", "PRINT")) else "",
+        *work,
+        "?PEEK(STEPPER ACTIVE)",
+        "STEPPER STOP",
+        "PAUSE 300",
+    )
+    assert not session.errors()
+    assert session.numbers(len(work) + 4)[0] in (-1, 0)
+    assert session.number(-3) == 1, "it runs again"
+    times = step_times_s(session)
+    first = times[times * 1000 < session.typed_ms[len(work) + 4]]
+    assert len(first) > 100
+    assert stops_gently(first)
+
+
+def test_an_error_in_a_program_ends_its_file(tmp_path: Path) -> None:
+    """As it ends motion; with OPTION ERROR RUN the file goes on."""
+    lines = [*READY, 'STEPPER FILE "f.nc"', "PAUSE 500", "PRINT 1/0"]
+    session = typed(
+        tmp_path,
+        FILE,
+        stored(*lines),
+        "RUN",
+        "PAUSE 300",
+        "?PEEK(STEPPER ACTIVE)",
+        "?PEEK(STEPPER X)",
+    )
+    assert session.number(4) == 0
+    assert stops_gently(step_times_s(session))
+    session = typed(
+        tmp_path, FILE, "OPTION ERROR RUN", stored(*lines), "RUN", WAIT, "?PEEK(STEPPER X)"
+    )
+    assert session.number() == 99
