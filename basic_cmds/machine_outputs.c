@@ -1,7 +1,6 @@
 // Spindle, coolant and pauses: what the user is told about them. Context: main loop.
 #include "basic_cmds/machine_outputs.h"
 
-#include "basic/basic.h"
 #include "stepper/stepper.h"
 #include "gcode/gcode.h"
 #include "stepper/stepper_outputs.h"
@@ -34,6 +33,28 @@ void machine_outputs_report(void) {
                      on_off(outputs.flood), pins_name(coolant->mist_gpio), on_off(outputs.mist),
                      coolant->invert ? ", inverted" : "");
     }
+}
+
+err_t machine_outputs_peek_spindle(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    (void)args;
+    (void)count;
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    bool pwm = outputs.spindle.gpio != PINS_NONE && outputs.spindle.max_rpm > 0.0;
+    double speed = pwm ? outputs.rpm : (double)outputs.spindle_on;
+    bool reverse = outputs.turn == STEPPER_SPINDLE_CCW && speed > 0.0;
+    *result = (basic_value_t){.type = BASIC_FLOAT, .number = reverse ? -speed : speed};
+    return ERR_OK;
+}
+
+err_t machine_outputs_peek_coolant(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    (void)args;
+    (void)count;
+    stepper_outputs_t outputs;
+    stepper_outputs(&outputs);
+    int64_t bits = (outputs.mist ? 1 : 0) | (outputs.flood ? 2 : 0);
+    *result = (basic_value_t){.type = BASIC_INTEGER, .integer = bits};
+    return ERR_OK;
 }
 
 void machine_outputs_background(void) {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -106,6 +107,30 @@ def test_status() -> None:
     assert "Spindle: GP20 (pin 26) inverted, ON 2500 rpm of 500 to 10000, PWM 2000 Hz, " in status
     assert "dir GP21 (pin 27) CCW, spin-up 10 ms\n" in status
     assert "Coolant: flood GP18 (pin 24) ON, mist none OFF, inverted\n" in status
+
+
+def test_peek() -> None:
+    found = answers(
+        *READY,
+        "? PEEK(STEPPER SPINDLE); PEEK(STEPPER COOLANT)",
+        "STEPPER SPINDLE GP20,1,10000,500,,,GP21",
+        "STEPPER COOLANT GP18,GP19",
+        "STEPPER GC M4 S2500 M7",
+        "PAUSE 10",
+        "? PEEK(STEPPER SPINDLE); PEEK(STEPPER COOLANT)",
+        "STEPPER GC M3 S1 M8",
+        "PAUSE 10",
+        "? PEEK(STEPPER SPINDLE); PEEK(STEPPER COOLANT)",
+        "STEPPER GC M5 M9",
+        "PAUSE 10",
+        "? PEEK(STEPPER SPINDLE); PEEK(STEPPER COOLANT)",
+        "STEPPER SPINDLE GP20,,,,,,GP21",
+        "STEPPER GC M4",
+        "PAUSE 10",
+        "? PEEK(STEPPER SPINDLE)",
+    )
+    shown = [line.split() for line in found if re.match(r" *-?[0-9.]+( |$)", line)]
+    assert shown == [["0", "0"], ["-2500", "1"], ["500", "3"], ["0", "0"], ["-1"]]
 
 
 def test_a_speed_too_high_is_said_once(tmp_path: Path) -> None:
