@@ -237,3 +237,73 @@ def test_an_error_in_a_program_ends_its_file(tmp_path: Path) -> None:
         tmp_path, FILE, "OPTION ERROR RUN", stored(*lines), "RUN", WAIT, "?PEEK(STEPPER X)"
     )
     assert session.number() == 99
+
+
+def test_init_sets_everything_as_it_was_at_first(tmp_path: Path) -> None:
+    """What settings the last set-up had does not matter behind CLOSE and INIT."""
+    fresh = ["STEPPER INIT", *AXES, "STEPPER STATUS"]
+    changed = [
+        "STEPPER JUNCTION 0.5",
+        "STEPPER SCURVE 1",
+        "STEPPER JERK 123,4,5,6,7",
+        "STEPPER ARC 0.3",
+        "STEPPER ARC LEGACY 1",
+        "STEPPER OVERRIDE FEED,50",
+        "STEPPER LIMITS X,1,2",
+        "STEPPER SPINDLE GP14",
+        "STEPPER COOLANT GP15",
+        "STEPPER PROBE GP26",
+        "STEPPER HWLIMITS GP16,GP17,GP18",
+        "STEPPER HWLIMITS FILTER 9",
+        "STEPPER HWLIMITS KEEP 1",
+        'STEPPER HOME X,,300 : STEPPER HOME ORDER "XYZ"',
+        "STEPPER GC G91 F77 G18 G61",
+        "STEPPER RUN ,1",
+    ]
+    session = typed(tmp_path, *fresh, *changed, "STEPPER STATUS", "STEPPER CLOSE", *fresh)
+    assert not session.errors()
+    first, last = session.answers[len(fresh) - 1], session.last
+    assert session.answers[len(fresh) + len(changed)] != first
+    assert last == first
+
+
+@pytest.mark.parametrize(
+    ("axis", "scale", "place", "shown"),
+    [
+        ("X", "80", "33.3", "33.3"),
+        ("X", "80", "40.0375", "40.0375"),
+        ("X", "1600", "0.000625", "0.000625"),
+        ("X", "66.66667", "33.3", "33.3"),
+        ("X", "80", "-0.1", "-0.1"),
+        ("A", "8.888889", "90", "90"),
+        ("A", "8.888889", "-36000", "-36000"),
+        ("X", "3", "0.5", "0.667"),  # the motor stands at two steps
+    ],
+)
+def test_peek_tells_a_neat_place(
+    axis: str, scale: str, place: str, shown: str, tmp_path: Path
+) -> None:
+    """No noise of the arithmetic, and never further from the motor than a hundredth of a step."""
+    session = typed(
+        tmp_path,
+        "STEPPER INIT",
+        f"STEPPER AXIS {axis},GP2,GP3,,,{scale}",
+        f"STEPPER POSITION {axis},{place}",
+        f"?PEEK(STEPPER {axis})",
+        f"?PEEK(STEPPER {axis}) = {shown}",
+    )
+    assert session.number(-2) == float(shown)
+    assert session.answers[-2].strip() == shown
+    assert session.number() == 1
+
+
+def test_peek_before_init(tmp_path: Path) -> None:
+    """Defined, whatever the pins show."""
+    session = typed(
+        tmp_path,
+        *(f"?PEEK(STEPPER {what})" for what in ("ACTIVE", "STATUS", "BUFFER", "SPEED", "LINE")),
+        "?MM.CODE",
+        "?PEEK(STEPPER X)",
+    )
+    assert [session.number(i) for i in range(6)] == [-1, 0, 0, 0, 0, 0]
+    assert session.errors() == ["X axis not configured (use STEPPER AXIS)"]
