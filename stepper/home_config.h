@@ -17,8 +17,8 @@ typedef struct {
 } home_switch_t;
 bool home_config_switch(axis_id_t axis, home_switch_t *found);
 
-// An axis of `group` that stands on a switch which may be that of the other end; leaving it could be
-// running into it. STEPPER_HOME_AXES: none.
+// An axis of `group` that stands on a switch which may be that of the other end; leaving it could
+// be running into it. STEPPER_HOME_AXES: none.
 axis_id_t home_config_on_either_end(uint32_t group);
 
 // Errors: axis not configured, no switch.

@@ -208,8 +208,8 @@ static void use_up(uint32_t moved) {
 }
 
 // A switch stays closed when the axis has run over it. The output of a driver that has noticed a
-// stall does not, and would notice nothing at a lower speed: what it has found is taken as it is. It
-// is active high. Whoever has chosen a latch feed has a switch.
+// stall does not, and would notice nothing at a lower speed: what it has found is taken as it is.
+// It is active high. Whoever has chosen a latch feed has a switch.
 static void notice_stalls(uint32_t moved) {
     FOR_AXES(axis, moved & ~(uint32_t)homing.todo) {
         bool opened = home_config_switch_of(axis).high && !home_config_is_closed(axis);

@@ -377,8 +377,8 @@ static void test_sensorless_homing_takes_the_first_approach(void) {
         TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
         TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
         TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
-        // The stall is noticed at 0; four steps later the end swallows those of the braking, 25 mm/s
-        // at 500 mm/s^2: 0.625 mm, 50 steps, and what was computed ahead.
+        // The stall is noticed at 0; four steps later the end swallows those of the braking, 25
+        // mm/s at 500 mm/s^2: 0.625 mm, 50 steps, and what was computed ahead.
         int64_t lost = bench.motors[AXIS_X].position_steps - PULL_OFF_X;
         TEST_ASSERT_INT64_WITHIN(6, 52, lost);
         TEST_ASSERT_EQUAL_UINT32(1, hook.on);
