@@ -19,10 +19,10 @@ static const basic_arg_spec_t hwlimits_args[HWLIMITS_ARGS] = {
 };
 
 static const basic_arg_spec_t filter_args[] = {
-    {"limit_samples", BASIC_ARG_INTEGER, .min = 1, .max = STEPPER_FILTER_MAX, .unit = "10 us",
+    {"limit_samples", BASIC_ARG_INTEGER, .min = 1, .max = STEPPER_FILTER_MAX, .unit = "x 10 us",
      .help = "how long a limit switch has to be active to stop the machine; INIT sets 3"},
     {"estop_samples", BASIC_ARG_INTEGER, DEFAULTS, .min = 1, .max = STEPPER_FILTER_MAX,
-     .fallback = STEPPER_FILTER_ESTOP, .unit = "10 us", .help = "the same for the E-STOP input"},
+     .fallback = STEPPER_FILTER_ESTOP, .unit = "x 10 us", .help = "the same for the E-STOP input"},
 };
 
 static const basic_arg_spec_t keep_args[] = {

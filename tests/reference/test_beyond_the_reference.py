@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from motion_checks import hardest_acceleration
-from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, SPINDLE, WAIT, Switch, typed
+from typed import ENABLE_X, ENABLE_Y, READY, SET_UP, SPINDLE, WAIT, Switch, program, typed
 
 MOVE = "STEPPER GC G1 X50 F3000"
 
@@ -170,3 +170,35 @@ def test_g28_behind_a_limit_trip(tmp_path: Path) -> None:
     assert session.numbers() == [5, 128]
     assert session.end("X") == pytest.approx(-10 + 3 + 5, abs=0.05)
     assert session.level(ENABLE_X) == 0
+
+
+USERS_PROGRAM = """\
+option explicit
+dim integer shown
+stepper init 32
+stepper axis x,gp0,gp1,,,200,400,50,5
+stepper axis y,gp2,gp3,gp4,1,200,400,50,5
+stepper position home
+stepper run
+settick 100, show
+stepper gc g90
+stepper gc g0 x1 y1
+stepper gcode g1, x, 2, f, 150
+stepper gs "g1 y" + str$(0.5) + " f150"
+do : pause 100 : loop until peek(stepper active) = 0
+settick 0, 0
+print str$(peek(stepper x),-4,4); " "; str$(peek(stepper y),-4,4)
+end
+
+sub show
+  inc shown
+  if peek(stepper x) < 0 then error "never"
+end sub
+"""
+
+
+def test_a_program_as_users_write_it(tmp_path: Path) -> None:
+    """Lower case, blank arguments, positions shown by a tick, slow axes."""
+    session = program(tmp_path, USERS_PROGRAM)
+    assert "Error" not in session.output
+    assert session.answers[0].splitlines()[-1].split() == ["+2.0000", "+0.5000"]
