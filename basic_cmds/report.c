@@ -150,7 +150,7 @@ err_t report_free_slots(const basic_arg_t *args, size_t count, basic_value_t *re
 // hundredth of a step: 33.3 and not 33.299983, which no motor can tell apart.
 static double neat(double position, double step) {
     double fine = round(position * 1e6) / 1e6;
-    if (fabs(position - fine) < 1e-9) {
+    if (fabs(step * 1e6 - round(step * 1e6)) < 1e-6) {
         return fine;
     }
     double scale = 1.0;
