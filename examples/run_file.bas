@@ -4,9 +4,13 @@ OPTION EXPLICIT
 DIM name$ = MM.CMDLINE$
 IF name$ = "" THEN INPUT "G-code file"; name$
 machine
-run_file name$
-DO : PAUSE 10 : LOOP UNTIL PEEK(STEPPER ACTIVE) <> 1
-PRINT "Done"
+STEPPER CHECK name$     ' an error in the file ends the program before anything moves
+STEPPER FILE name$
+DO
+  PAUSE 500
+  PRINT "Line"; PEEK(STEPPER LINE); ","; PEEK(STEPPER PERCENT); " %"
+LOOP WHILE PEEK(STEPPER ACTIVE) = 1
+IF PEEK(STEPPER PERCENT) = 100 THEN PRINT "Done" ELSE PRINT "Not done"
 END
 
 ' RUN has closed the machine, as after power-up.
@@ -18,29 +22,4 @@ SUB machine
   STEPPER SPINDLE GP22
   STEPPER POSITION HOME
   STEPPER RUN
-END SUB
-
-' Queues all lines of a file as fast as the queue takes them. A line that is refused ends the program, and
-' with it the motion: a part with a line missing is no part.
-SUB run_file(name$)
-  LOCAL text$
-  LOCAL INTEGER number
-  OPEN name$ FOR INPUT AS #1
-  DO WHILE NOT EOF(#1)
-    LINE INPUT #1, text$
-    INC number
-    IF LEFT$(text$, 1) <> "%" THEN queue_line text$, number
-  LOOP
-  CLOSE #1
-END SUB
-
-' A line makes at most two entries (with a rounded corner), so it fits when two are free.
-SUB queue_line(text$, number AS INTEGER)
-  DO WHILE PEEK(STEPPER BUFFER) < 2 : PAUSE 1 : LOOP
-  ON ERROR SKIP
-  STEPPER GS text$
-  IF MM.ERRNO <> 0 THEN
-    PRINT "Line"; number; ": "; text$
-    ERROR MM.ERRMSG$
-  ENDIF
 END SUB
