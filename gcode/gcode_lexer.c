@@ -9,7 +9,8 @@ static bool is_blank(char c) {
     return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\n';
 }
 
-// Whether the text between p and end begins with `MSG,`, with blanks before; returns what is behind.
+// Whether the text between p and end begins with `MSG,`, with blanks before; returns what is
+// behind.
 static const char *behind_msg(const char *p, const char *end) {
     static const char key[] = "MSG,";
     while (p < end && (*p == ' ' || *p == '\t')) {
@@ -82,8 +83,8 @@ static const char *begin(const char *text, const char *end, bool block_delete,
     return p < end && *p == '%' ? end : p;
 }
 
-// Whether the axis letter that would be the next word names an axis to home, so that nobody asks for
-// its number. A sign needs one all the same.
+// Whether the axis letter that would be the next word names an axis to home, so that nobody asks
+// for its number. A sign needs one all the same.
 static bool names_axis_to_home(const gcode_lexed_t *lexed, const char *p, const char *end,
                                bool nist) {
     char letter = lexed->words[lexed->count].letter;

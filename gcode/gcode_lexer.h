@@ -13,8 +13,8 @@ typedef struct {
 
 // Takes `text` apart. Blanks, tabs and commas may stand anywhere between letter and number as well
 // as between words. A line that begins with % is empty; so is one that begins with / if
-// `options->block_delete`, else the / is skipped. Behind a code that homes, an axis may stand without
-// a number, which is 0 then: `G28 X`. Errors name the place.
+// `options->block_delete`, else the / is skipped. Behind a code that homes, an axis may stand
+// without a number, which is 0 then: `G28 X`. Errors name the place.
 err_t gcode_lexer_split(const char *text, size_t length, const gcode_options_t *options,
                         gcode_lexed_t *lexed);
 
