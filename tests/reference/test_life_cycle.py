@@ -307,3 +307,15 @@ def test_peek_before_init(tmp_path: Path) -> None:
     )
     assert [session.number(i) for i in range(6)] == [-1, 0, 0, 0, 0, 0]
     assert session.errors() == ["X axis not configured (use STEPPER AXIS)"]
+
+
+def test_work_offsets_outlive_run_and_init_but_g92_does_not(tmp_path: Path) -> None:
+    """They are the user's measurements; where G92 was set is known no more."""
+    again = [*SET_UP, "STEPPER POSITION HOME", "?PEEK(STEPPER X)"]
+    offsets = ["STEPPER GC G10 L2 P1 X5", "STEPPER GC G92 X100"]
+    session = typed(
+        tmp_path, stored("PRINT 1"), *READY, *offsets, "?PEEK(STEPPER X)", "RUN", *again
+    )
+    assert not session.errors()
+    assert session.number(len(READY) + 3) == 100
+    assert session.number() == -5
