@@ -145,6 +145,7 @@ static void print_origin(void) {
 
 void gcode_lines_report(void) {
     char modes[GCODE_MODES_SIZE];
+    gcode_background(); // which notices that a stop has switched the spindle off
     gcode_modes(modes);
     basic_printf("G-code: %s\n", modes);
     print_path_mode();
