@@ -107,8 +107,9 @@ err_t gcode_interpreter_failure(gcode_interpreter_t *in) {
 // ---- Lines --------------------------------------------------------------------------------------
 
 // All entries of the line, in their order, each from where the one before it ends.
-static err_t check_plan(const gcode_interpreter_t *in, const gcode_plan_t *plan,
-                        const double start[AXIS_COUNT]) {
+static __attribute__((noinline)) err_t check_plan(const gcode_interpreter_t *in,
+                                                  const gcode_plan_t *plan,
+                                                  const double start[AXIS_COUNT]) {
     gcode_plan_t trial = *plan;
     gcode_entry_t entry;
     double from[AXIS_COUNT] = {start[AXIS_X], start[AXIS_Y], start[AXIS_Z], start[AXIS_A]};

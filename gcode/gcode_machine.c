@@ -67,12 +67,14 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
 
 // ---- Pauses -------------------------------------------------------------------------------------
 
-// Those that are queued, the first one first. A drop forgets them.
+// Those that are queued, the first one first; if there are more, the others are only counted. A drop
+// forgets them.
 #define PAUSES_MAX 8u
 
 static struct {
     uint32_t tools[PAUSES_MAX];
     uint32_t count;
+    uint32_t more;
     uint32_t drops;
 } pauses;
 
@@ -80,17 +82,17 @@ static void follow_drops(void) {
     if (pauses.drops != stepper_drops()) {
         pauses.drops = stepper_drops();
         pauses.count = 0;
+        pauses.more = 0;
     }
 }
 
 static err_t push_pause(uint32_t tool) {
     follow_drops();
-    if (pauses.count == PAUSES_MAX) {
-        return err_raise(ERR_GCODE_BUFFER_FULL, NULL);
-    }
     err_t err = stepper_pause();
-    if (err == ERR_OK) {
+    if (err == ERR_OK && pauses.count < PAUSES_MAX && pauses.more == 0) {
         pauses.tools[pauses.count++] = tool;
+    } else if (err == ERR_OK) {
+        pauses.more++;
     }
     return err;
 }
@@ -98,6 +100,7 @@ static err_t push_pause(uint32_t tool) {
 bool gcode_take_pause(uint32_t *tool) {
     follow_drops();
     if (pauses.count == 0) {
+        pauses.more -= pauses.more > 0 ? 1 : 0;
         return false;
     }
     *tool = pauses.tools[0];

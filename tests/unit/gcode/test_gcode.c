@@ -6,6 +6,7 @@
 #include "bench.h"
 #include "gcode/gcode.h"
 #include "lines.h"
+#include "stepper/stepper_outputs.h"
 
 void setUp(void) {
     bench_start_with(NULL, STEPPER_BLOCKS_MAX, false);
@@ -161,6 +162,42 @@ static void test_dwell_and_spindle_lines(void) {
     TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.25, bench_finish(1));
 }
 
+static void pass_pause(void) {
+    for (unsigned i = 0; i < 1000 && !stepper_paused(); i++) {
+        bench_wait_us(1000);
+    }
+    TEST_ASSERT_TRUE(stepper_paused());
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(false));
+    bench_wait_us(5000);
+}
+
+// The machine comes to them much later; each is asked for when it has.
+static void test_pauses_know_their_tools(void) {
+    uint32_t tool;
+    TEST_ASSERT_FALSE(gcode_take_pause(&tool));
+    lines_check_ok("T3 M6");
+    lines_check_ok("G0 X1 M0");
+    for (int i = 0; i < 10; i++) {
+        lines_check_ok("M6 T9");
+    }
+    for (unsigned i = 0; i < 12; i++) {
+        pass_pause();
+        TEST_ASSERT_EQUAL(i < 8, gcode_take_pause(&tool)); // it keeps eight
+        if (i < 8) {
+            TEST_ASSERT_EQUAL_UINT32(i == 0 ? 3 : i == 1 ? GCODE_NO_TOOL : 9, tool);
+        }
+    }
+    lines_check_ok("M6 T4");
+    pass_pause();
+    TEST_ASSERT_TRUE(gcode_take_pause(&tool));
+    TEST_ASSERT_EQUAL_UINT32(4, tool);
+    lines_check_ok("M6 T5");
+    stepper_stop();
+    bench_finish(1);
+    TEST_ASSERT_FALSE(gcode_take_pause(&tool));
+    bench_finish(1);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_words_in_any_order_and_spacing);
@@ -172,5 +209,6 @@ int main(void) {
     RUN_TEST(test_too_many_words);
     RUN_TEST(test_full_queue_refuses_and_keeps_the_modes);
     RUN_TEST(test_dwell_and_spindle_lines);
+    RUN_TEST(test_pauses_know_their_tools);
     return UNITY_END();
 }
