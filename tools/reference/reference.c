@@ -102,7 +102,7 @@ static void print_command(const basic_command_t *command) {
 
 static void print_function(const basic_function_t *function) {
     const char *keyword = function->keyword != NULL ? function->keyword : "";
-    const char *gap = function->keyword != NULL ? " " : "";
+    const char *gap = function->keyword != NULL && function->arg_count > 0 ? " " : "";
     if (function->keyword == NULL && function->arg_count == 0) {
         printf("## %s\n\n%s.\n\n", function->name, function->help);
         return;
