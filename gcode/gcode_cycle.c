@@ -15,7 +15,7 @@
 #define BREAK_MM 0.254
 #define REPEATS_MAX 9999.0
 // A line is checked as a whole, so it may not stand for any number of moves.
-#define PECKS_MAX 5000.0
+#define PECKS_MAX 2000.0
 
 typedef enum {
     STAGE_LIFT, // from below R

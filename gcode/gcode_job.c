@@ -115,14 +115,15 @@ err_t gcode_job_background(bool *more) {
         return ERR_OK;
     }
     gcode_background();
-    gcode_job_percent();
+    gcode_job_line(); // it is forgotten as soon as nothing moves
     if (was_dropped()) {
         end_reading(GCODE_JOB_STOPPED);
     }
     err_t err = feed();
     if (job.phase == PHASE_ENDING && !gcode_busy() && stepper_active() <= 0) {
+        int percent = gcode_job_percent();
+        job.percent = job.result == GCODE_JOB_DONE ? 100 : percent;
         job.phase = PHASE_IDLE;
-        job.percent = job.result == GCODE_JOB_DONE ? 100 : job.percent;
     }
     *more = can_feed();
     return err;

@@ -51,10 +51,10 @@ const char *err_message(void) {
 
 void err_keep(err_kept_t *kept) {
     kept->code = err_now;
-    memcpy(kept->text, err_text_now, sizeof kept->text);
+    strcpy(kept->text, err_text_now); // most are short
 }
 
 void err_put_back(const err_kept_t *kept) {
     err_now = kept->code;
-    memcpy(err_text_now, kept->text, sizeof err_text_now);
+    strcpy(err_text_now, kept->text);
 }

@@ -236,7 +236,7 @@ static void test_refusals_change_nothing(void) {
     check_refused("G81 X1 Z-1 R2 L10000", "L: 10000 is invalid (valid is 1 to 9999)");
     check_refused("G81 X1 Z2 R1", "R of a canned cycle must not be below Z");
     check_refused("G81 X1 A1 Z-1 R2", "A cannot move in a canned cycle");
-    check_refused("G83 X1 Z-10 R1 Q0.001", "A canned cycle of more than 5000 pecks in one line");
+    check_refused("G83 X1 Z-10 R1 Q0.001", "A canned cycle of more than 2000 pecks in one line");
     check_refused("G18 G81 X1 Z-1 R2", "Canned cycles need G17, the XY plane");
     check_refused("G93 G81 X1 Z-1 R2 F9", "Not with G93: cycles");
     check_refused("G81 X1 Z-1 R2 Q1", "Nothing in this line uses Q");
