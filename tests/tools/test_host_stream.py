@@ -195,3 +195,33 @@ def test_long_lines_are_recognised_in_the_echo(board):
     with Board.open(board.device) as prompt:
         text = 'PRINT "' + "x" * 240 + '"'
         assert prompt.command(text) == ["x" * 240]
+
+
+def test_files_of_cam_programs_are_streamed(board):
+    """Cycles that need more places than the queue has, offsets, pauses that somebody ends."""
+    setup = [
+        SETUP[0].replace("64", "16"),
+        *SETUP[1:4],
+        "STEPPER AXIS A,GP8,GP9,,,10,36000,2000",
+        "STEPPER SPINDLE GP22,,20000,,,100,GP21",
+        "STEPPER COOLANT GP20,GP19",
+    ]
+    with Board.open(board.device) as opened:
+        for line in setup:
+            opened.command(line)
+        for name in ("fusion_drill", "rotary_wrap"):
+            lines = read_lines(ROOT / "tests" / "gcode" / "files" / f"{name}.nc")
+            opened.command("STEPPER POSITION HOME")
+            streamer = Streamer(opened, prepare(name, lines))
+            pauses = []
+
+            def hear(notice, streamer=streamer, pauses=pauses):
+                if "STEPPER RESUME" in notice:
+                    pauses.append(notice)
+                    streamer.resume()
+
+            opened.on_notice = hear
+            streamer.run()
+            wanted = sum(block.kind == "pause" for block in read_blocks(lines))
+            assert len(pauses) == wanted, pauses
+            assert [round(opened.peek(axis) * 80) for axis in "XY"] == list(end_of(lines))
