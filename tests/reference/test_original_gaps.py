@@ -101,6 +101,17 @@ THERE = {
     "spindle speed": Feature(
         ["STEPPER SPINDLE GP14,,12000,0,1000,0,GP15", *gc("M4 S6000", "S3000", "M5"), WAIT]
     ),
+    "spin-up": Feature(
+        [
+            "STEPPER SPINDLE GP14,,,,,200",
+            "TIMER = 0",
+            *gc("M3", "G0 X1"),
+            WAIT,
+            'IF TIMER < 200 THEN ERROR "no time to spin up"',
+        ],
+        {"X": 1},
+    ),
+    "stop of one axis": Feature(["STEPPER JOG X,+,600", "PAUSE 200", "STEPPER JOG STOP", WAIT]),
     "coolant": Feature(["STEPPER COOLANT GP19,GP20", *gc("M7", "M8", "M9"), WAIT]),
     "tools": Feature([*gc("T2", "M6", "G0 X1"), "PAUSE 100", "STEPPER RESUME", WAIT], {"X": 1}),
     "files": Feature(
@@ -135,6 +146,7 @@ NOT_THERE = [
     "width and the polarity of step pulses",
     "Encoders",
     "Spindle override",
+    "A time until drivers go off",
 ]
 """What the guide says is not there."""
 

@@ -64,3 +64,11 @@ def test_statements_are_whole_and_in_order() -> None:
         assert set(statement) <= {"section", "id", "says", "choice", "tests"}, statement["id"]
         assert re.fullmatch(r"[A-Z].*\.", statement["says"]), statement["id"]
         assert {file_of(section) for section in SECTIONS} <= {p.name for p in HERE.glob("*.py")}
+
+
+def test_every_fault_has_its_test() -> None:
+    """The 27 faults of the original, by number."""
+    names = functions_of(HERE / "test_original_faults.py")
+    names |= functions_of(HERE / "test_original_gaps.py")
+    numbers = {int(found[1]) for name in names if (found := re.match(r"test_2_(\d\d)_", name))}
+    assert numbers == set(range(1, 28))
