@@ -14,8 +14,21 @@
 #define REPLAN_BLOCKS 100u
 #define REPLAN_TICKS 300u
 
+// What is queued would begin at once, with a switch that does not trip any more.
+static err_t check_switches(void) {
+    uint32_t pressed = governor_armed() ? 0 : stepper_pressed();
+    if (pressed == 0 || ring_used(&blocks.ring) == 0) {
+        return ERR_OK;
+    }
+    char names[STEPPER_SWITCH_NAMES_SIZE];
+    return err_raise(ERR_LIMIT_BEFORE_RUN, "%s", stepper_switch_names(names, pressed));
+}
+
 err_t stepper_run(stepper_idle_t idle) {
     err_t err = rules_check(RULES_DO_RUN);
+    if (err == ERR_OK) {
+        err = check_switches();
+    }
     if (err == ERR_OK) {
         machine.idle = idle;
         machine_arm(machine.idle);

@@ -8,6 +8,7 @@
 #include "stepper/stepper.h"
 
 #define MODEL_ESTOP_GPIO 15u
+#define MODEL_LIMIT_GPIO 20u
 #define MODEL_SPINDLE_GPIO 14u
 #define MODEL_RPM_MAX 10000
 

@@ -298,6 +298,36 @@ static void do_estop_input(void) {
     after_emergency_stop();
 }
 
+static void press_limit(void) {
+    host_pads_drive(MODEL_LIMIT_GPIO, false);
+}
+
+// The switch closes while the tick is told to count further, or while a line is on its way.
+static void do_limit_input(void) {
+    operations_arm();
+    unsigned samples = 1;
+    preempt_do_soon(press_limit);
+    for (int i = 0; i < 4; i++) {
+        static const char line[] = "G1 F600 X1 Y1 Z1 A1";
+        samples = fuzz_random_below(6) + 1;
+        if (command("STEPPER HWLIMITS FILTER %u", samples) != ERR_OK) {
+            fail("filter: %s", err_message());
+        }
+        gcode_line(line, sizeof line - 1);
+        do_look();
+    }
+    preempt_do_soon(NULL);
+    press_limit();
+    wait_us(10 * samples + 20);
+    stepper_status_t status;
+    stepper_status(&status);
+    check(stepper_alarm() == STEPPER_ALARM_LIMIT && !status.armed, "the switch was not seen");
+    check_position();
+    host_pads_drive(MODEL_LIMIT_GPIO, true);
+    must("STEPPER RECOVER");
+    after_emergency_stop();
+}
+
 // Jogs from rest, changes its mind on the way, and brakes.
 static void do_jog(void) {
     operations_resume();
@@ -380,10 +410,16 @@ void operations_do_one(void) {
     default:
         operations_resume();
         do_move(); // to have something to stop
-        if (fuzz_random_percent(50)) {
+        switch (fuzz_random_below(3)) {
+        case 0:
             do_emergency_stop();
-        } else {
+            break;
+        case 1:
             do_estop_input();
+            break;
+        default:
+            do_limit_input();
+            break;
         }
         break;
     }

@@ -19,6 +19,7 @@ void session_start(void) {
     commands_start();
     watch_attach(model_axes);
     host_pads_drive(MODEL_ESTOP_GPIO, true);
+    host_pads_drive(MODEL_LIMIT_GPIO, true);
 }
 
 static void choose_model(uint64_t seed) {
@@ -51,6 +52,9 @@ static void set_up(void) {
                     config->max_velocity, config->max_acceleration) != ERR_OK) {
             fail("axis: %s", err_message());
         }
+    }
+    if (command("STEPPER HWLIMITS 0,GP%u,0", MODEL_LIMIT_GPIO) != ERR_OK) {
+        fail("hwlimits: %s", err_message());
     }
     model.pwm = fuzz_random_percent(50);
     must(model.pwm ? "STEPPER SPINDLE GP14,,10000,,20000" : "STEPPER SPINDLE GP14");

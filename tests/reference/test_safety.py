@@ -230,6 +230,25 @@ def test_armed_on_a_pressed_switch(tmp_path: Path) -> None:
     assert session.axis("X").step_ns[-1] <= 1300.03e6
 
 
+def test_what_is_queued_does_not_start_on_a_pressed_switch(tmp_path: Path) -> None:
+    session = typed(
+        tmp_path,
+        *SET_UP,
+        f"STEPPER HWLIMITS GP{X_MIN},0,0",
+        "STEPPER POSITION HOME",
+        "STEPPER GC G1 X5 F600",
+        "STEPPER RUN",
+        "STEPPER CLEAR",
+        "STEPPER RUN",
+        "STEPPER JOG X,2",
+        WAIT,
+        events=[Event(0, X_MIN, 0)],
+    )
+    told = "Limit switch X_MIN is active - use STEPPER CLEAR, then RUN and jog off it"
+    assert session.errors() == [told]
+    assert session.end("X") == 2
+
+
 def test_a_switch_that_bounces_while_the_axis_leaves_it_does_not_trip(tmp_path: Path) -> None:
     bounces = [Event(400 + 3 * i, X_MIN, i % 2) for i in range(12)]
     session = typed(
