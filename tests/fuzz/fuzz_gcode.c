@@ -130,6 +130,14 @@ static err_t send(const fuzz_text_t *text) {
     return err;
 }
 
+// Whatever goes on ends, pauses as well.
+static void settle_down(void) {
+    do {
+        check_ok(stepper_hold(false), "resume");
+        fuzz_machine_settle(SETTLE_S);
+    } while (stepper_paused());
+}
+
 // Entries of the last line may wait for room, or for the end of probing. What was accepted has to be
 // carried out: only probing may fail. False: it took too long and was stopped.
 static bool finish_line(bool probes) {
@@ -164,6 +172,9 @@ static void make_room(void) {
     uint64_t until_us = hal_time_us() + 10000000u;
     while ((stepper_blocks_free() == 0 || stepper_active() == 1) && hal_time_us() < until_us) {
         hal_idle(until_us);
+        if (stepper_paused()) {
+            check_ok(stepper_hold(false), "resume");
+        }
         stepper_status_t status;
         stepper_status(&status);
         if (status.blocks_free > 0 && !status.stopping) {
@@ -173,7 +184,7 @@ static void make_room(void) {
             return;
         }
     }
-    fuzz_machine_settle(SETTLE_S);
+    settle_down();
     fuzz_gcode_model_follow_machine();
 }
 
@@ -198,14 +209,6 @@ static void send_right_line(void) {
     }
     fuzz_gcode_model_check();
     fuzz_session->moves += line.kind == FUZZ_GCODE_MOVE;
-}
-
-// Whatever goes on ends, pauses as well.
-static void settle_down(void) {
-    do {
-        check_ok(stepper_hold(false), "resume");
-        fuzz_machine_settle(SETTLE_S);
-    } while (stepper_paused());
 }
 
 // The origin that the reader has now is taken over as G92 in the first system.
