@@ -1,6 +1,6 @@
-// G-code: from a line of text to entries of the motion queue. The face of gcode/. docs/user-guide.md
-// lists the codes. A line is read whole and checked whole. A refused line has changed nothing, modal state
-// included: the same line may be sent again. Context: main loop.
+// G-code: from a line of text to entries of the motion queue. The face of gcode/.
+// docs/gcode.md lists the codes. A line is read whole and checked whole. A refused line has
+// changed nothing, modal state included: the same line may be sent again. Context: main loop.
 #ifndef GCODE_H
 #define GCODE_H
 
@@ -40,8 +40,8 @@ bool gcode_must_wait(void);
 err_t gcode_failure(void);
 bool gcode_failed(void);
 
-// What M0, M1 and M6 wait for, in the order in which the machine comes to them: to be asked each time
-// it pauses. False: it pauses for something else.
+// What M0, M1 and M6 wait for, in the order in which the machine comes to them: to be asked each
+// time it pauses. False: it pauses for something else.
 #define GCODE_NO_TOOL UINT32_MAX
 bool gcode_take_pause(uint32_t *tool); // the tool of M6, else GCODE_NO_TOOL
 
@@ -50,11 +50,11 @@ bool gcode_take_end(void);
 
 // ---- State --------------------------------------------------------------------------------------
 
-// After INIT: all modes as after power-up, options off, G92 cleared. Coordinate systems, tool lengths
-// and stored places stay, and the tool length in force.
+// After INIT: all modes as after power-up, options off, G92 cleared. Coordinate systems, tool
+// lengths and stored places stay, and the tool length in force.
 void gcode_reset(void);
-// Motion mode, plane, distance, centre, path and feed mode, units and the feed as after power-up; what
-// waits is dropped. Offsets, tool and spindle speed stay.
+// Motion mode, plane, distance, centre, path and feed mode, units and the feed as after power-up;
+// what waits is dropped. Offsets, tool and spindle speed stay.
 void gcode_reset_modal(void);
 
 // What lines mean. All off after INIT.
@@ -81,8 +81,8 @@ gcode_path_t gcode_path(void);
 // M5, M3, M4.
 typedef enum { GCODE_SPINDLE_OFF, GCODE_SPINDLE_CW, GCODE_SPINDLE_CCW } gcode_spindle_t;
 
-// Machine position = work position + offset, in mm or degrees: the coordinate system, G92 and, on Z,
-// the tool's length.
+// Machine position = work position + offset, in mm or degrees: the coordinate system, G92 and, on
+// Z, the tool's length.
 double gcode_offset(axis_id_t axis);
 double gcode_work_position(axis_id_t axis);
 // As G92.1.

@@ -286,7 +286,7 @@ static err_t check_motion(line_t *line, const gcode_state_t *before) {
     return line_has(line, WORD_F) ? ERR_OK : err_raise(ERR_GCODE_INVERSE_FEED, NULL);
 }
 
-// ---- The modal state behind the line --------------------------------------------------------------
+// ---- The modal state behind the line ------------------------------------------------------------
 
 // A feed of one mode means nothing in the other.
 static void set_feed(line_t *line, const gcode_state_t *before) {

@@ -1,4 +1,5 @@
-// The table of G and M codes: the modal group of each and what it chooses there. Context: main loop.
+// The table of G and M codes: the modal group of each and what it chooses there. Context: main
+// loop.
 #include "gcode/gcode_codes.h"
 
 #include <math.h>

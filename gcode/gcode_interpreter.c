@@ -1,5 +1,5 @@
-// An interpreter of G-code lines: reads, checks, carries out, remembers. A line changes the state only
-// when its first entry was taken; what does not fit into the queue waits. Context: main loop.
+// An interpreter of G-code lines: reads, checks, carries out, remembers. A line changes the state
+// only when its first entry was taken; what does not fit into the queue waits. Context: main loop.
 #include "gcode/gcode_interpreter.h"
 
 #include "gcode/gcode_lexer.h"

@@ -1,6 +1,6 @@
-// An interpreter of G-code lines: a state and a sink. The machine has one (gcode.c); another, on a copy
-// of the state, can look through a file without moving anything. Inside gcode/ only. Context: main
-// loop.
+// An interpreter of G-code lines: a state and a sink. The machine has one (gcode.c); another, on a
+// copy of the state, can look through a file without moving anything. Inside gcode/ only. Context:
+// main loop.
 #ifndef GCODE_INTERPRETER_H
 #define GCODE_INTERPRETER_H
 

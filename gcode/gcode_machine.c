@@ -67,8 +67,8 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
 
 // ---- Pauses -------------------------------------------------------------------------------------
 
-// Those that are queued, the first one first; if there are more, the others are only counted. A drop
-// forgets them.
+// Those that are queued, the first one first; if there are more, the others are only counted. A
+// drop forgets them.
 #define PAUSES_MAX 8u
 
 static struct {

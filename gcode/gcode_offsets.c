@@ -1,4 +1,5 @@
-// Coordinate systems, G92, tool lengths and stored places: how lines change them. Context: main loop.
+// Coordinate systems, G92, tool lengths and stored places: how lines change them. Context: main
+// loop.
 #include "gcode/gcode_offsets.h"
 
 #include <string.h>
@@ -66,8 +67,8 @@ static void store(gcode_state_t *state, stored_t stored, const double place[AXIS
     state->has_stored[stored] = true;
 }
 
-// M2 and M30, as RS274/NGC has it: G54, G17, G90, G94, G1, spindle and coolant off. Units, feed, tool
-// length and G92 stay.
+// M2 and M30, as RS274/NGC has it: G54, G17, G90, G94, G1, spindle and coolant off. Units, feed,
+// tool length and G92 stay.
 static void end_program(modal_t *modal) {
     modal->motion = MOTION_FEED;
     modal->plane = GCODE_PLANE_XY;

@@ -1,5 +1,5 @@
-// Where G-code lines are carried out: on the machine, or on something that only looks at them. A line
-// becomes entries, one after the other. Inside gcode/ only. Context: main loop.
+// Where G-code lines are carried out: on the machine, or on something that only looks at them. A
+// line becomes entries, one after the other. Inside gcode/ only. Context: main loop.
 #ifndef GCODE_SINK_H
 #define GCODE_SINK_H
 
@@ -49,10 +49,11 @@ typedef struct {
     void (*target)(double target[AXIS_COUNT]);
     // The same for a line that gives this place a name, such as G92; error: it is not known.
     err_t (*place)(double target[AXIS_COUNT]);
-    // Whether the entry could be carried out from `from`, room in the queue apart. Nothing is changed.
-    // `from` is advanced to where it ends.
+    // Whether the entry could be carried out from `from`, room in the queue apart. Nothing is
+    // changed. `from` is advanced to where it ends.
     err_t (*check)(const gcode_entry_t *entry, double from[AXIS_COUNT]);
-    // Carries the entry out, or queues it. ERR_GCODE_BUFFER_FULL: nothing was done, try again later.
+    // Carries the entry out, or queues it. ERR_GCODE_BUFFER_FULL: nothing was done, try again
+    // later.
     err_t (*push)(const gcode_entry_t *entry);
     // After ENTRY_HOME and ENTRY_PROBE were pushed: true once they have ended, with their error.
     bool (*ended)(err_t *result);

@@ -1,5 +1,5 @@
-// What G-code remembers from line to line: the modal state, and the offsets between work and machine
-// coordinates. Lengths are in mm whatever G20 said. Inside gcode/ only. Context: main loop.
+// What G-code remembers from line to line: the modal state, and the offsets between work and
+// machine coordinates. Lengths are in mm whatever G20 said. Inside gcode/ only. Context: main loop.
 #ifndef GCODE_STATE_H
 #define GCODE_STATE_H
 

@@ -1,5 +1,5 @@
-// Looks through a G-code file without moving anything: a second interpreter, whose sink adds up what
-// the machine would do. Context: main loop.
+// Looks through a G-code file without moving anything: a second interpreter, whose sink adds up
+// what the machine would do. Context: main loop.
 #include "gcode/gcode_survey.h"
 
 #include <math.h>

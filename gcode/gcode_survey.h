@@ -1,5 +1,5 @@
-// Looks through a G-code file of A: without moving anything: where it leads, how long it takes, what
-// would be refused. A further face of gcode/. Context: main loop.
+// Looks through a G-code file of A: without moving anything: where it leads, how long it takes,
+// what would be refused. A further face of gcode/. Context: main loop.
 //
 // It begins where the last queued move ends, with the modes and offsets that are in force, and
 // leaves them as they are. Homing ends at the home position, probing meets nothing.

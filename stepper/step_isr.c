@@ -24,8 +24,8 @@ segment_ring_t segments;
 // input is suspected, and that it has gone back has to be seen.
 #define SUSPICION (1u << 31)
 
-// Inputs whose level has to be there for some samples in a row to count. Noise on one input may hold
-// up another one by as many samples, not longer.
+// Inputs whose level has to be there for some samples in a row to count. Noise on one input may
+// hold up another one by as many samples, not longer.
 typedef struct {
     uint32_t pins;
     uint32_t suspects; // those that had the level in all samples since the first

@@ -123,8 +123,8 @@ typedef struct {
     bool rapid;  // as fast as the axes allow
     stepper_corner_t corner;
     double blend_mm; // > 0, with STEPPER_CORNER_BLEND
-    // From the beginning of this move on the spindle has this speed, without a stop. No effect while
-    // it is off or has no PWM. Otherwise the speed stays as it is.
+    // From the beginning of this move on the spindle has this speed, without a stop. No effect
+    // while it is off or has no PWM. Otherwise the speed stays as it is.
     bool sets_spindle;
     double spindle_rpm;
 } stepper_move_t;

@@ -1,5 +1,5 @@
-// Whether a move could be queued, without queuing it: a line of G-code that needs several entries is
-// checked as a whole before the first is queued. A further face of stepper/, beside stepper.h.
+// Whether a move could be queued, without queuing it: a line of G-code that needs several entries
+// is checked as a whole before the first is queued. A further face of stepper/, beside stepper.h.
 // Context: main loop.
 #ifndef STEPPER_CHECK_H
 #define STEPPER_CHECK_H

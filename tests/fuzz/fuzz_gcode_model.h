@@ -18,8 +18,8 @@ extern fuzz_gcode_model_t fuzz_gcode_model;
 // Work to machine coordinates, summed up as the reader does.
 double fuzz_gcode_model_offset(axis_id_t axis);
 
-// Where the machine's word is taken: after a stop, and after a line whose meaning the model does not
-// know.
+// Where the machine's word is taken: after a stop, and after a line whose meaning the model does
+// not know.
 void fuzz_gcode_model_follow_machine(void);
 
 void fuzz_gcode_model_follow(const fuzz_gcode_line_t *line);

@@ -1,5 +1,5 @@
-// Lines that have to be refused: each of tests/gcode/malformed.txt gives its error and changes nothing,
-// neither of what G-code remembers nor of the machine.
+// Lines that have to be refused: each of tests/gcode/malformed.txt gives its error and changes
+// nothing, neither of what G-code remembers nor of the machine.
 #include <stdio.h>
 #include <string.h>
 #include <unity.h>

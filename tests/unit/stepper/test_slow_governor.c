@@ -1,5 +1,6 @@
-// A motion that begins behind a standstill is shown to the tick only when there is enough of it: the
-// governor may be held up before it can go on. Here it is, and the segments are looked at as well.
+// A motion that begins behind a standstill is shown to the tick only when there is enough of it:
+// the governor may be held up before it can go on. Here it is, and the segments are looked at as
+// well.
 #include <unity.h>
 
 #include "bench.h"
