@@ -240,3 +240,30 @@ def test_what_is_refused_does_not_disturb_motion(state: str, tmp_path: Path) -> 
     session = run(state, [*refused, "STEPPER RESUME", wait, "?PEEK(STEPPER X)"], tmp_path)
     assert session.number() == ENDS[state]
     assert session.end("X") == ENDS[state]
+
+
+@pytest.mark.parametrize("ending", ["RUN", "NEW", "STEPPER CLOSE"])
+@pytest.mark.parametrize("state", list(STATES)[1:])
+def test_the_machine_can_be_closed_and_set_up_again(
+    state: str, ending: str, tmp_path: Path
+) -> None:
+    """From every state; each pin is free behind it, and the same set-up works."""
+    before, events = STATES[state]
+    paused = [*before, "STEPPER GC M0"] if state == "queued" else before
+    pins = [f"SETPIN GP{gpio}, DIN : SETPIN GP{gpio}, OFF" for gpio in (*range(2, 23), 26)]
+    session = typed(
+        tmp_path,
+        "AUTOSAVE\rPRINT 7\r\x1a",
+        *paused,
+        ending,
+        "STEPPER STATUS",
+        *pins,
+        *SET_UP,
+        "STEPPER POSITION HOME" if state != "E-STOP" else "",
+        events=events,
+        switches=[SWITCH],
+    )
+    behind = session.answers[len(paused) + 2 :]
+    assert behind[0] == "Stepper not initialized"
+    assert [error_of(answer) for answer in behind if error_of(answer)] == []
+    assert session.output.count("\n 7\n") == (ending == "RUN")
