@@ -44,6 +44,7 @@ STATES: dict[str, tuple[list[str], list[Event]]] = {
     "moving": (MOVING, []),
     "dwelling": ([*IDLE, "STEPPER GC G4 P20000", "PAUSE 100"], []),
     "holding": ([*MOVING, "STEPPER HOLD", "PAUSE 500"], []),
+    "paused": ([*IDLE, "STEPPER GC M0", "STEPPER GC G1 X50 F300", "PAUSE 100"], []),
     "stopping": (
         [
             *KNOWN,
@@ -92,67 +93,67 @@ ERRORS = {
 # In each line a command and its columns, one for each state in the order of STATES. w: it waits,
 # for the user has the machine held.
 MATRIX = """
-STEPPER INIT                              . I I I I I I I I I I I I I I I I
-STEPPER AXIS X,GP2,GP3,GP4,,80,6000,500   N . . . . B B B B B B H B . . . .
-STEPPER TUNE X,,,5000                     N x . . . B B B B B B H B . . . .
-STEPPER INVERT X,0                        N x . . . B B B B B B H B . . . .
-STEPPER ENABLE X,1                        N x . . . B B B B B B H B E . . .
-STEPPER ENABLE X,0                        N x . R R B B B B B B H B . . . R
-STEPPER RESET                             N . . . . B B B B B B H B . . . .
-STEPPER LIMITS X,-500,500                 N x . . . B B B B B B H B . . . .
-STEPPER SPINDLE GP14                      N . . . . B B B B B B H B . . . .
-STEPPER COOLANT GP15                      N . . . . B B B B B B H B . . . .
-STEPPER PROBE GP26                        N . . . . B B B B B B H B . . . .
-STEPPER HWLIMITS GP16,GP17,GP18           N . . . . B B B B B B H B . . . .
-STEPPER HWLIMITS FILTER 3                 N . . . . . . . . . . . . . . . .
-STEPPER HWLIMITS KEEP 0                   N . . . . . . . . . . . . . . . .
-STEPPER HOME X,,500                       N x . . . . . . . . . H . . . . .
-STEPPER HOME ORDER "ZXY"                  N . . . . . . . . . . H . . . . .
-STEPPER JUNCTION 0.05                     N . . . . . . . . . . . . . . . .
-STEPPER SCURVE 1                          N . . . . . . . . . . . . . . . .
-STEPPER JERK 20000                        N . . . . . . . . . . . . . . . .
-STEPPER ARC 0.1                           N . . . . . . . . . . . . . . . .
-STEPPER ARC LEGACY 1                      N . . . . . . . . . . . . . . . .
-STEPPER DIALECT REFERENCE                 N . . . . . . . . . . . F . . . .
-STEPPER BLOCKDELETE 1                     N . . . . . . . . . . . . . . . .
-STEPPER OPTIONALSTOP 0                    N . . . . . . . . . . . . . . . .
-STEPPER OVERRIDE FEED,100                 N . . . . . . . . . . . . . . . .
-STEPPER BUFFER                            N . . . . . . . . . . . . . . . .
-STEPPER STATUS                            . . . . . . . . . . . . . . . . .
-STEPPER RUN                               N . . . . . . . . . . H . E e l .
-STEPPER CLEAR                             N . . . . . M M M M M H M . . . .
-STEPPER STOP                              N . . . . . . . . . . . . . . . .
-STEPPER HOLD                              N . . . . . . . . . . . . . . . .
-STEPPER RESUME                            N . . . . . . . . . . . . . . . .
-STEPPER JOG STOP                          N . . . . . . . . . . . . . . . .
-STEPPER JOG X,1,600                       N r r . . j j j j S . H F E e l .
-STEPPER ESTOP                             N . . . . . . . . . . . . . . . .
-STEPPER RECOVER                           N . . . . . . . . . . . . E . . .
-STEPPER CLOSE                             N . . . . . . . . . . . . . . . .
-STEPPER POSITION HOME                     N . . . . B B B B B B H B E . . .
-STEPPER POSITION X,5                      N x . . . B B B B B B H B E . . .
-STEPPER HOME RUN X                        N x . . . r . . . S J H F E . . .
-STEPPER FILE "f.nc"                       N r r . . r . . . S J H F E e l .
-STEPPER CHECK "f.nc"                      N k . . . . . . . . . . . . . . .
-STEPPER GC G90                            N . . . . . . . . . . . F . . . .
-STEPPER GC G1 X1 F600                     N x . P . . . . . S J H F e e l L
-STEPPER GC G2 I1 F600                     N P . P . . . . . S J H F e e l L
-STEPPER GC G81 X1 Z-1 R1 F600             N x . P . . . . . S J H F e e l L
-STEPPER GC G4 P10                         N . . . . . . . . S J H F e e l .
-STEPPER GC M3                             N s . . . . . . . S J H F e e l .
-STEPPER GC M5                             N s . . . . . . . S J H F e e l .
-STEPPER GC M8                             N c . . . . . . . S J H F e e l .
-STEPPER GC M0                             N . . . . . . . . S J H F e e l .
-STEPPER GC M30                            N . . . . . . . . . . . F . . . .
-STEPPER GC T1 M6                          N . . . . . . . . S J H F e e l .
-STEPPER GC G92 X0                         N x . P . . . . . S J H F P P P .
-STEPPER GC G10 L2 P1 X1                   N x . . . . . . . . . . F . . . .
-STEPPER GC G28.1                          N P . P . . . . . S J H F P P P .
-STEPPER GC G28 X0                         N x . . . r . . w S J H F E . . .
-STEPPER GC G30                            N g . g . . . . . S J H F e e l L
-STEPPER GC G38.3 X1 F600                  N x r P . r . . w S J H F e e l L
-STEPPER GS "G91"                          N . . . . . . . . . . . F . . . .
-STEPPER GCODE G1,X,1,F,600                N x . P . . . . . S J H F e e l L
+STEPPER INIT                              . I I I I I I I I I I I I I I I I I
+STEPPER AXIS X,GP2,GP3,GP4,,80,6000,500   N . . . . B B B B B B B H B . . . .
+STEPPER TUNE X,,,5000                     N x . . . B B B B B B B H B . . . .
+STEPPER INVERT X,0                        N x . . . B B B B B B B H B . . . .
+STEPPER ENABLE X,1                        N x . . . B B B B B B B H B E . . .
+STEPPER ENABLE X,0                        N x . R R B B B B B B B H B . . . R
+STEPPER RESET                             N . . . . B B B B B B B H B . . . .
+STEPPER LIMITS X,-500,500                 N x . . . B B B B B B B H B . . . .
+STEPPER SPINDLE GP14                      N . . . . B B B B B B B H B . . . .
+STEPPER COOLANT GP15                      N . . . . B B B B B B B H B . . . .
+STEPPER PROBE GP26                        N . . . . B B B B B B B H B . . . .
+STEPPER HWLIMITS GP16,GP17,GP18           N . . . . B B B B B B B H B . . . .
+STEPPER HWLIMITS FILTER 3                 N . . . . . . . . . . . . . . . . .
+STEPPER HWLIMITS KEEP 0                   N . . . . . . . . . . . . . . . . .
+STEPPER HOME X,,500                       N x . . . . . . . . . . H . . . . .
+STEPPER HOME ORDER "ZXY"                  N . . . . . . . . . . . H . . . . .
+STEPPER JUNCTION 0.05                     N . . . . . . . . . . . . . . . . .
+STEPPER SCURVE 1                          N . . . . . . . . . . . . . . . . .
+STEPPER JERK 20000                        N . . . . . . . . . . . . . . . . .
+STEPPER ARC 0.1                           N . . . . . . . . . . . . . . . . .
+STEPPER ARC LEGACY 1                      N . . . . . . . . . . . . . . . . .
+STEPPER DIALECT REFERENCE                 N . . . . . . . . . . . . F . . . .
+STEPPER BLOCKDELETE 1                     N . . . . . . . . . . . . . . . . .
+STEPPER OPTIONALSTOP 0                    N . . . . . . . . . . . . . . . . .
+STEPPER OVERRIDE FEED,100                 N . . . . . . . . . . . . . . . . .
+STEPPER BUFFER                            N . . . . . . . . . . . . . . . . .
+STEPPER STATUS                            . . . . . . . . . . . . . . . . . .
+STEPPER RUN                               N . . . . . . . . . . . H . E e l .
+STEPPER CLEAR                             N . . . . . M M M M M M H M . . . .
+STEPPER STOP                              N . . . . . . . . . . . . . . . . .
+STEPPER HOLD                              N . . . . . . . . . . . . . . . . .
+STEPPER RESUME                            N . . . . . . . . . . . . . . . . .
+STEPPER JOG STOP                          N . . . . . . . . . . . . . . . . .
+STEPPER JOG X,1,600                       N r r . . j j j j j S . H F E e l .
+STEPPER ESTOP                             N . . . . . . . . . . . . . . . . .
+STEPPER RECOVER                           N . . . . . . . . . . . . . E . . .
+STEPPER CLOSE                             N . . . . . . . . . . . . . . . . .
+STEPPER POSITION HOME                     N . . . . B B B B B B B H B E . . .
+STEPPER POSITION X,5                      N x . . . B B B B B B B H B E . . .
+STEPPER HOME RUN X                        N x . . . r . . . . S J H F E . . .
+STEPPER FILE "f.nc"                       N r r . . r . . . . S J H F E e l .
+STEPPER CHECK "f.nc"                      N k . . . . . . . . . . . . . . . .
+STEPPER GC G90                            N . . . . . . . . . . . . F . . . .
+STEPPER GC G1 X1 F600                     N x . P . . . . . . S J H F e e l L
+STEPPER GC G2 I1 F600                     N P . P . . . . . . S J H F e e l L
+STEPPER GC G81 X1 Z-1 R1 F600             N x . P . . . . . . S J H F e e l L
+STEPPER GC G4 P10                         N . . . . . . . . . S J H F e e l .
+STEPPER GC M3                             N s . . . . . . . . S J H F e e l .
+STEPPER GC M5                             N s . . . . . . . . S J H F e e l .
+STEPPER GC M8                             N c . . . . . . . . S J H F e e l .
+STEPPER GC M0                             N . . . . . . . . . S J H F e e l .
+STEPPER GC M30                            N . . . . . . . . . . . . F . . . .
+STEPPER GC T1 M6                          N . . . . . . . . . S J H F e e l .
+STEPPER GC G92 X0                         N x . P . . . . . . S J H F P P P .
+STEPPER GC G10 L2 P1 X1                   N x . . . . . . . . . . . F . . . .
+STEPPER GC G28.1                          N P . P . . . . . . S J H F P P P .
+STEPPER GC G28 X0                         N x . . . r . . w w S J H F E . . .
+STEPPER GC G30                            N g . g . . . . . . S J H F e e l L
+STEPPER GC G38.3 X1 F600                  N x r P . r . . w w S J H F e e l L
+STEPPER GS "G91"                          N . . . . . . . . . . . . F . . . .
+STEPPER GCODE G1,X,1,F,600                N x . P . . . . . . S J H F e e l L
 """
 
 
@@ -229,7 +230,14 @@ def test_what_is_allowed_is_done(state: str, tmp_path: Path) -> None:
         assert error_of(run(state, [command], tmp_path).answers[-1]) == "", command
 
 
-ENDS = {"moving": 50.0, "dwelling": 0.0, "holding": 50.0, "jogging": 50.0, "file": 50.0}
+ENDS = {
+    "moving": 50.0,
+    "dwelling": 0.0,
+    "holding": 50.0,
+    "paused": 50.0,
+    "jogging": 50.0,
+    "file": 50.0,
+}
 
 
 @pytest.mark.parametrize("state", ENDS)
