@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "basic_cmds/events.h"
+#include "basic_cmds/report.h"
 #include "basic_cmds/machine_outputs.h"
 #include "gcode/gcode.h"
 #include "stepper/stepper_safety.h"
@@ -114,6 +115,7 @@ static struct {
     uint8_t kinds[STEPPER_EVENTS];
     uint8_t count;
     bool taken; // one of them was, so the SUB is called again for those that are left
+    bool idle;  // the queue is empty, but a file or a line of G-code will go on
 } waiting;
 
 static void hand_on(stepper_event_t event) {
@@ -132,7 +134,15 @@ void safety_background(void) {
         if (event == STEPPER_EVENT_PAUSED) {
             machine_outputs_tell_pause();
         }
-        hand_on(event);
+        if (event == STEPPER_EVENT_IDLE) {
+            waiting.idle = true;
+        } else {
+            hand_on(event);
+        }
+    }
+    if (waiting.idle && report_active() <= 0) {
+        waiting.idle = false;
+        hand_on(STEPPER_EVENT_IDLE);
     }
     if (waiting.taken && waiting.count > 0) {
         basic_raise_event(EVENTS_STEPPER);

@@ -374,6 +374,20 @@ def test_events_are_for_polling_too_and_forgotten_by_run(tmp_path: Path) -> None
     assert session.last.split("\n")[-1].split() == ["3", "2", "1", "0", "0", "0"]
 
 
+def test_a_file_is_idle_at_its_end(tmp_path: Path) -> None:
+    """Not each time that the queue has run empty on the way."""
+    text = REACTS.replace("STEPPER GC G1 X50 F3000\n", "", 1).replace(
+        "STEPPER GC G1 X2 F6000\n",
+        'OPEN "a.nc" FOR OUTPUT AS #1:PRINT #1,"G1 F6000 X1":'
+        'FOR i=1 TO 5:PRINT #1,"G4 P2":PRINT #1,"G1 X";i:NEXT:CLOSE #1\n'
+        'STEPPER FILE "a.nc":PAUSE 1500\n',
+    )
+    session = program(tmp_path, text.replace("INIT ,,", "INIT ,1,"), events=released(ESTOP, X_MIN))
+    told = [line for line in session.last.split("\n") if line.startswith(("event", "after"))]
+    assert sorted(told[:2]) == ["event 3", "event 7"]
+    assert told[2] == "after"
+
+
 def test_a_sub_that_takes_one_event_is_called_again_for_the_next(tmp_path: Path) -> None:
     """Two at one time."""
     text = REACTS.replace("    IF kind = 0 THEN EXIT DO\n", "")
