@@ -55,7 +55,7 @@ def test_three_forms_of_a_line_are_one() -> None:
     modes = "G0 G59.3 G17 G21 G90 G91.1 G94 G40 G98 G61.1 G43.1 M3 M9 T0 F300 S8000"
     assert f"G-code: {modes}" in ends[0].splitlines()
     assert "Work zero at machine X0.000 Y0.000 Z2.000" in ends[0].splitlines()
-    assert "X: 11.538 mm, machine 11.538 mm (923 steps)" in ends[0].splitlines()
+    assert "X: 11.537 mm, machine 11.537 mm (923 steps)" in ends[0].splitlines()
 
 
 @pytest.mark.parametrize(
