@@ -1,4 +1,4 @@
-// PWM slices. Context: main.
+// PWM slices. Context: main; hal_pwm_start() also in the governor, which stops a spindle.
 #include "hal/hal.h"
 #include "hal/hal_io.h"
 
@@ -24,9 +24,10 @@ void hal_pwm_set(unsigned slice, const hal_pwm_t *pwm) {
 
 void hal_pwm_start(uint32_t slices, const uint16_t counts[HAL_PWM_SLICES]) {
     hw_clear_bits(&pwm_hw->en, slices);
-    for (uint32_t rest = slices; rest != 0; rest &= rest - 1) {
-        unsigned slice = (unsigned)__builtin_ctz(rest);
-        pwm_hw->slice[slice].ctr = counts[slice];
+    for (unsigned slice = 0; slice < HAL_PWM_SLICES; slice++) {
+        if ((slices >> slice) & 1) {
+            pwm_hw->slice[slice].ctr = counts[slice];
+        }
     }
     hw_set_bits(&pwm_hw->en, slices);
 }
