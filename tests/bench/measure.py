@@ -170,7 +170,7 @@ def part(uf2: Path, seconds: float, jerk: int = 0) -> Part:
     """Real lines of G-code from the prompt to the queue, then their motion; jerk 0: trapezoid."""
     lines = [line for line in NAME_PLATE.read_text().splitlines() if re.match(r"[A-Z]", line)]
     with ready(uf2, 1024, acceleration=1000) as board:
-        board.command("STEPPER SPINDLE GP15")
+        board.command("STEPPER SPINDLE GP28")
         limit_jerk(board, jerk)
         board.measure("gcode_line", "hal_on_governor")
         for line in lines:
