@@ -6,11 +6,12 @@ machine up works a second time; nothing is left claimed, floating or moving unno
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from typed import AXES, ENABLE_X, READY, SET_UP, STEP_X, WAIT, Session, typed
+from typed import AXES, ENABLE_X, READY, SET_UP, STEP_X, STEPMITE, WAIT, Session, typed
 
 CTRL_Z = "\x1a"
 MOVE = "STEPPER GC G1 X100 F3000"
@@ -319,3 +320,15 @@ def test_work_offsets_outlive_run_and_init_but_g92_does_not(tmp_path: Path) -> N
     assert not session.errors()
     assert session.number(len(READY) + 3) == 100
     assert session.number() == -5
+
+
+def test_what_mm_startup_has_set_up_is_there_for_the_autorun_program(tmp_path: Path) -> None:
+    """Power-up is not RUN: nothing is closed in between."""
+    flash = tmp_path / "flash.bin"
+    program = stored("PRINT PEEK(STEPPER ACTIVE)", "END", "SUB MM.STARTUP", *SET_UP, "END SUB")
+    command = [STEPMITE, "--virtual", "--flash", flash]
+    typing = f"{program}OPTION AUTORUN ON\r".encode()
+    subprocess.run(command, input=typing, capture_output=True, check=True)
+    shown = subprocess.run(command, input=b"", capture_output=True, check=True).stdout.decode()
+    assert "Stepper initialized" in shown
+    assert "\r\n 0\r\n" in shown
