@@ -138,8 +138,8 @@ static void settle_down(void) {
     } while (stepper_paused());
 }
 
-// Entries of the last line may wait for room, or for the end of probing. What was accepted has to be
-// carried out: only probing may fail. False: it took too long and was stopped.
+// Entries of the last line may wait for room, or for the end of probing. What was accepted has to
+// be carried out: only probing may fail. False: it took too long and was stopped.
 static bool finish_line(bool probes) {
     uint64_t until_us = hal_time_us() + (uint64_t)(SETTLE_S * 1e6);
     gcode_background();
