@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -20,6 +21,18 @@ def test_every_argument_is_explained() -> None:
     for line in (ROOT / "docs/reference.md").read_text().splitlines():
         if line.startswith("|"):
             assert all(cell.strip() for cell in line.strip("|").split("|")), line
+
+
+def test_the_table_of_what_is_refused_names_every_command() -> None:
+    """A new command comes with its rule."""
+    page = (ROOT / "docs/reference.md").read_text()
+    names = re.findall(r"^## STEPPER (.*)$", page, re.MULTILINE)
+    table = page.partition("## What is refused when")[2].partition("Of several reasons")[0]
+    rows = " ; ".join(line.split("|")[1] for line in table.splitlines() if line.startswith("| "))
+    named = {word.strip() for word in re.split(r"[,:;]", rows)}
+    named |= {word.split(" ")[0] for word in named if " axis" in word or " that" in word}
+    assert len(names) > 40
+    assert [name for name in names if name not in named] == ["STATUS"]
 
 
 def test_there_is_room_for_all_rows() -> None:
