@@ -72,9 +72,20 @@ class Switch:
     """Pressed at `at_mm` and below; else at and above."""
     active_high: bool = False
     bounce_us: int = 0
+    stall_rate: int = 0
+    """Above 0: no switch but the output of a driver whose motor stalls at this place, where the
+    axis ends; it notices stalls at so many steps/s and faster."""
+
+    def at_steps(self) -> int:
+        return round(self.at_mm * PINS[self.axis].steps_per_unit)
 
     def row(self) -> str:
-        at_steps = round(self.at_mm * PINS[self.axis].steps_per_unit)
+        at_steps = self.at_steps()
+        if self.stall_rate > 0:
+            return (
+                f"stall pin=GP{self.gpio} axis={self.axis} to={at_steps} rate={self.stall_rate}"
+                " hold_us=2000"
+            )
         return (
             f"switch pin=GP{self.gpio} axis={self.axis} {'to' if self.below else 'from'}={at_steps}"
             f" bounce_us={self.bounce_us}" + (" high" if self.active_high else "")
@@ -83,11 +94,13 @@ class Switch:
 
 def machine_rows(switches: list[Switch] | tuple) -> list[str]:
     """The description of the axes that have switches, and of these."""
-    axes = [PINS[name] for name in dict.fromkeys(switch.axis for switch in switches)]
-    return [
-        *(f"axis {pins.name} step=GP{pins.step_gpio} dir=GP{pins.dir_gpio}" for pins in axes),
-        *(switch.row() for switch in switches),
-    ]
+    ends = {switch.axis: switch.at_steps() for switch in switches if switch.stall_rate > 0}
+    rows = []
+    for name in dict.fromkeys(switch.axis for switch in switches):
+        pins = PINS[name]
+        stops = f" stops={ends[name]}:1000000" if name in ends else ""
+        rows.append(f"axis {name} step=GP{pins.step_gpio} dir=GP{pins.dir_gpio}{stops}")
+    return rows + [switch.row() for switch in switches]
 
 
 @dataclass(frozen=True)
