@@ -11,6 +11,7 @@
 #include "host_pads.h"
 #include "model.h"
 #include "preempt.h"
+#include "probes.h"
 #include "stepper/stepper_safety.h"
 #include "tests/fuzz/fuzz_random.h"
 #include "tests/unit/stepper/watch.h"
@@ -354,12 +355,21 @@ static void do_jog(void) {
     follow_machine();
 }
 
+static void do_probe(void) {
+    operations_resume();
+    operations_arm();
+    wait_for_rest();
+    probes_do_one();
+    wait_for_rest();
+    follow_machine();
+}
+
 static void let_time_pass(void) {
     wait_us(fuzz_random_below(fuzz_random_percent(70) ? 3000 : 40000));
 }
 
 void operations_do_one(void) {
-    switch (fuzz_random_below(model.calm ? 14 : 20)) {
+    switch (fuzz_random_below(model.calm ? 14 : 22)) {
     case 0:
         if (model.curved) {
             do_curve();
@@ -406,6 +416,10 @@ void operations_do_one(void) {
         break;
     case 16:
         do_jog();
+        break;
+    case 17:
+    case 18:
+        do_probe();
         break;
     default:
         operations_resume();
