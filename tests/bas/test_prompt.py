@@ -156,7 +156,9 @@ def test_help():
     assert answers("HELP nothing\r") == ["Error : No help for nothing"]
     assert answers("HELP next\r") == answers("HELP FOR\r")
     assert answers("HELP return\r") == answers("HELP GOSUB\r")
-    assert answers("HELP on key\r") == answers("HELP ON\r")
+    product, *language = answers("HELP ON\r")  # a command of the machine begins with this word
+    assert product.strip() == "ON STEPPER EVENT"
+    assert answers("HELP on key\r") == language
     assert answers("HELP line input\r") == answers("HELP LINE\r")
     assert answers("HELP x\r") == ["Error : No help for x"]
     assert answers("HELP PORT\r")[0] == "PORT(start, bits [, start, bits] ...)"
