@@ -42,11 +42,11 @@ stepper_cycle_t stepper_cycle(void) {
 }
 
 void cycle_begin(stepper_cycle_t kind) {
-    cycle.kind = kind;
     cycle.stopped = false;
     cycle.was_armed = governor_armed();
     cycle.last = STEPPER_CYCLE_NONE;
     machine_arm(STEPPER_IDLE_HOLD);
+    cycle.kind = kind;
 }
 
 void cycle_forget(void) {
@@ -90,23 +90,25 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm) {
     hal_governor_unlock();
 }
 
+void cycle_follow(void) {
+    if (cycle.kind == STEPPER_CYCLE_NONE) {
+        return;
+    }
+    if (!governor_armed()) {
+        cycle_end(cycle.stopped ? CYCLE_STOPPED : CYCLE_TRIPPED, 0, 0.0);
+    } else if (cycle.stopped && !governor_working() && !machine_stopping()) {
+        cycle_end(CYCLE_STOPPED, 0, 0.0);
+    }
+}
+
 void stepper_background(void) {
     if (cycle.kind == STEPPER_CYCLE_NONE) {
         return;
     }
     machine_follow_stops();
-    if (!governor_armed()) {
-        cycle_end(cycle.stopped ? CYCLE_STOPPED : CYCLE_TRIPPED, 0, 0.0);
-        return;
+    if (cycle.kind != STEPPER_CYCLE_NONE && !governor_working() && !machine_stopping()) {
+        kinds[cycle.kind].advance();
     }
-    if (governor_working() || machine_stopping()) {
-        return;
-    }
-    if (cycle.stopped) {
-        cycle_end(CYCLE_STOPPED, 0, 0.0);
-        return;
-    }
-    kinds[cycle.kind].advance();
 }
 
 // ---- Moves --------------------------------------------------------------------------------------

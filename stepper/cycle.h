@@ -30,6 +30,9 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm);
 // Someone wants motion to stop: the cycle ends at the standstill.
 void cycle_stop(void);
 
+// Ends a cycle whose machine has been stopped, as soon as it stands.
+void cycle_follow(void);
+
 // INIT and CLOSE: no cycle, and none before.
 void cycle_forget(void);
 

@@ -3,6 +3,7 @@
 
 #include "stepper/alarm.h"
 #include "stepper/axis.h"
+#include "stepper/cycle.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
 #include "stepper/limits.h"
@@ -38,6 +39,7 @@ void machine_follow_stops(void) {
         machine.drops_seen = drops;
         machine_follow_motors();
     }
+    cycle_follow();
 }
 
 bool machine_stopping(void) {

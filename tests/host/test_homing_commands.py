@@ -184,6 +184,13 @@ def test_a_failure_in_the_background_is_told_once(tmp_path):
     assert shown.endswith("\n1\n")
 
 
+@pytest.mark.parametrize("stop", ["ESTOP", "RECOVER"])
+def test_what_has_been_stopped_is_over_at_once(tmp_path, stop):
+    """No pause is needed before the machine is armed again, or homed again."""
+    text = f"STEPPER HOME RUN X:PAUSE 500:STEPPER {stop}:STEPPER RUN:STEPPER GC G28\n{STATE}"
+    assert program(tmp_path, text).splitlines()[-1] == "at 0 0 0 1"
+
+
 @pytest.mark.parametrize(
     ("order", "shown"),
     [
