@@ -67,7 +67,7 @@ def ready(
     board = Emulator(uf2)
     board.connect()
     board.until("> ")
-    for gpio in (ESTOP_GPIO, *LIMIT_GPIOS):
+    for gpio in (ESTOP_GPIO, *LIMIT_GPIOS) if inputs else ():
         board.set_pin(gpio, 1)
     board.command(f"STEPPER INIT ,{blocks}" + (f",GP{ESTOP_GPIO}" if inputs else ""))
     for index, name in enumerate(AXES[:axes]):
