@@ -125,20 +125,28 @@ static void hand_on(stepper_event_t event) {
     basic_raise_event(EVENTS_STEPPER);
 }
 
-void safety_background(void) {
-    stepper_event_t event;
-    while ((event = stepper_next_event()) != STEPPER_EVENT_NONE) {
-        if (event == STEPPER_EVENT_ESTOP || event == STEPPER_EVENT_LIMIT) {
-            tell_trip();
-        }
-        if (event == STEPPER_EVENT_PAUSED) {
-            machine_outputs_tell_pause();
-        }
-        if (event == STEPPER_EVENT_IDLE) {
-            waiting.idle = true;
-        } else {
-            hand_on(event);
-        }
+static void take(stepper_event_t event) {
+    switch (event) {
+    case STEPPER_EVENT_ESTOP:
+    case STEPPER_EVENT_LIMIT:
+        tell_trip();
+        break;
+    case STEPPER_EVENT_PAUSED:
+        machine_outputs_tell_pause();
+        break;
+    case STEPPER_EVENT_IDLE:
+        waiting.idle = true;
+        return;
+    default:
+        break;
+    }
+    hand_on(event);
+}
+
+// Apart, so that there is little to do as a rule: a program asks every few statements.
+static void __attribute__((noinline)) take_all(stepper_event_t event) {
+    for (; event != STEPPER_EVENT_NONE; event = stepper_next_event()) {
+        take(event);
     }
     if (waiting.idle && report_active() <= 0) {
         waiting.idle = false;
@@ -148,6 +156,13 @@ void safety_background(void) {
         basic_raise_event(EVENTS_STEPPER);
     }
     waiting.taken = false;
+}
+
+void safety_background(void) {
+    stepper_event_t event = stepper_next_event();
+    if (event != STEPPER_EVENT_NONE || waiting.idle || waiting.taken) {
+        take_all(event);
+    }
 }
 
 void safety_clear(void) {

@@ -117,6 +117,10 @@ void stepper_raise_event(stepper_event_t event) {
 }
 
 stepper_event_t stepper_next_event(void) {
+    if (state.events == 0 && !machine.limit_active &&
+        !governor_has_news(state.ends_seen, state.pauses_seen)) {
+        return STEPPER_EVENT_NONE; // as a rule: a program asks every few statements
+    }
     alarm_follow();
     bool idle = !governor_working() && stepper_cycle() == STEPPER_CYCLE_NONE;
     if (idle && ends() != state.ends_seen) {

@@ -393,3 +393,8 @@ uint32_t governor_drops(void) {
 bool governor_tripped(void) {
     return governor.tripped != 0;
 }
+
+bool governor_has_news(uint32_t ends, uint32_t pauses) {
+    return governor.tripped != 0 || blocks.executed + governor.drops != ends ||
+           governor.pauses != pauses;
+}

@@ -24,7 +24,7 @@ TALK = 'DO: PRINT "some text that goes out over the line, as fast as it can": LO
 # Inputs that the tick watches: E-STOP, and a switch at each end of X, Y, Z.
 ESTOP_GPIO = 15
 LIMIT_GPIOS = (16, 17, 18, 20, 21, 22)
-NOISE_US = 50  # from one pulse on a limit input to the next, each of two samples
+NOISE_US = 200  # from one pulse on a limit input to the next, each of two samples
 
 
 @dataclass(frozen=True)
