@@ -96,7 +96,7 @@ REFUSED = {
     "G3 I2 P1.5 F500": "P: 1.5 is invalid",
     "G3 I2 P-1 F500": "P: -1 is invalid",
     "G18 G2 X5 J2 F500": "not in the plane",
-    "G61 P1": "P only valid",
+    "G61 P1": "Nothing in this line uses P",
     "G64 P-1": "P: -1 is invalid",
     "G61 G64": "",
     "G17 G18": "",
