@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-import pytest
+from pathlib import Path
 
+import pytest
+from typer.testing import CliRunner
+
+from stepmite.cli import app
 from stepmite.gcode import Block, GcodeError, Reader, read_blocks
+
+FILES = sorted((Path(__file__).parents[1] / "gcode" / "files").glob("*.nc"))
 
 
 def moves(*lines: str, reader: Reader | None = None) -> list[tuple[float, ...]]:
@@ -169,3 +175,11 @@ def test_a_cycle_may_wait_at_the_bottom() -> None:
 def test_what_cannot_be_read_is_named(lines: list[str], message: str) -> None:
     with pytest.raises(GcodeError, match=message):
         list(read_blocks(lines))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_files_of_cam_programs_are_looked_through(file: Path) -> None:
+    """The dry run of the tool knows every code in them."""
+    done = CliRunner().invoke(app, ["stream", "--dry-run", str(file)])
+    assert done.exit_code == 0, done.output
+    assert "estimated time" in done.output
