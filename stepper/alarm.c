@@ -116,11 +116,8 @@ void stepper_raise_event(stepper_event_t event) {
     state.events = (uint16_t)(state.events | 1u << event);
 }
 
-stepper_event_t stepper_next_event(void) {
-    if (state.events == 0 && !machine.limit_active &&
-        !governor_has_news(state.ends_seen, state.pauses_seen)) {
-        return STEPPER_EVENT_NONE; // as a rule: a program asks every few statements
-    }
+// Apart, so that there is little to do as a rule: a program asks every few statements.
+static stepper_event_t __attribute__((noinline)) look_for_event(void) {
     alarm_follow();
     bool idle = !governor_working() && stepper_cycle() == STEPPER_CYCLE_NONE;
     if (idle && ends() != state.ends_seen) {
@@ -137,6 +134,12 @@ stepper_event_t stepper_next_event(void) {
     stepper_event_t event = (stepper_event_t)__builtin_ctz(state.events);
     state.events = (uint16_t)(state.events & (state.events - 1));
     return event;
+}
+
+stepper_event_t stepper_next_event(void) {
+    bool news = state.events != 0 || machine.limit_active ||
+                governor_has_news(state.ends_seen, state.pauses_seen);
+    return news ? look_for_event() : STEPPER_EVENT_NONE;
 }
 
 void alarm_count_drop(void) {

@@ -395,6 +395,5 @@ bool governor_tripped(void) {
 }
 
 bool governor_has_news(uint32_t ends, uint32_t pauses) {
-    return governor.tripped != 0 || blocks.executed + governor.drops != ends ||
-           governor.pauses != pauses;
+    return blocks.executed + governor.drops != ends || governor.pauses != pauses;
 }
