@@ -180,6 +180,7 @@ def test_only_the_file_moves_the_machine(tmp_path: Path) -> None:
         'STEPPER GS "G90"',
         "STEPPER GCODE G0,X,1",
         "STEPPER JOG X,1",
+        "STEPPER HOME RUN",
         'STEPPER FILE "a.nc"',
         'KILL "a.nc"',
         "PRINT PEEK(STEPPER ACTIVE)",
@@ -190,7 +191,7 @@ def test_only_the_file_moves_the_machine(tmp_path: Path) -> None:
         "PRINT PEEK(STEPPER X) PEEK(STEPPER Y)",
     )
     first = shown.index(RUNNING)
-    assert shown[first : first + 7] == [RUNNING] * 5 + ["Error : File is open: /a.nc", " 1"]
+    assert shown[first : first + 8] == [RUNNING] * 6 + ["Error : File is open: /a.nc", " 1"]
     assert any(re.fullmatch(r"G-code file: line \d+, \d+ % done", line) for line in shown)
     assert shown[-2:] == ["G-code file done", " 9 99"]
 
