@@ -114,9 +114,13 @@ static void tell_trip(void) {
 static struct {
     uint8_t kinds[STEPPER_EVENTS];
     uint8_t count;
-    bool taken; // one of them was, so the SUB is called again for those that are left
-    bool idle;  // the queue is empty, but a file or a line of G-code will go on
+    uint8_t also; // TAKEN, IDLE
 } waiting;
+
+enum {
+    TAKEN = 1, // the program took one, so the SUB is called again for those that are left
+    IDLE = 2   // the queue is empty, but a file or a line of G-code will go on
+};
 
 static void hand_on(stepper_event_t event) {
     if (memchr(waiting.kinds, (int)event, waiting.count) == NULL) {
@@ -135,7 +139,7 @@ static void take(stepper_event_t event) {
         machine_outputs_tell_pause();
         break;
     case STEPPER_EVENT_IDLE:
-        waiting.idle = true;
+        waiting.also |= IDLE;
         return;
     default:
         break;
@@ -148,19 +152,19 @@ static void __attribute__((noinline)) take_all(stepper_event_t event) {
     for (; event != STEPPER_EVENT_NONE; event = stepper_next_event()) {
         take(event);
     }
-    if (waiting.idle && report_active() <= 0) {
-        waiting.idle = false;
+    if ((waiting.also & IDLE) != 0 && report_active() <= 0) {
+        waiting.also &= (uint8_t)~IDLE;
         hand_on(STEPPER_EVENT_IDLE);
     }
-    if (waiting.taken && waiting.count > 0) {
+    if ((waiting.also & TAKEN) != 0 && waiting.count > 0) {
         basic_raise_event(EVENTS_STEPPER);
     }
-    waiting.taken = false;
+    waiting.also &= (uint8_t)~TAKEN;
 }
 
 void safety_background(void) {
     stepper_event_t event = stepper_next_event();
-    if (event != STEPPER_EVENT_NONE || waiting.idle || waiting.taken) {
+    if (((unsigned)event | waiting.also) != 0) { // NONE is 0
         take_all(event);
     }
 }
@@ -184,7 +188,7 @@ err_t safety_peek_event(const basic_arg_t *args, size_t count, basic_value_t *re
         result->integer = waiting.kinds[0];
         waiting.count--;
         memmove(waiting.kinds, waiting.kinds + 1, waiting.count);
-        waiting.taken = true;
+        waiting.also |= TAKEN;
     }
     return ERR_OK;
 }

@@ -10,6 +10,8 @@
 #include "stepper/rules.h"
 #include "stepper/stepper_homing.h"
 
+#define LOOK (1u << 15) // among the events: something has to be followed though nothing happened
+
 static struct {
     stepper_alarm_t alarm;
     stepper_trip_t trip; // the last one
@@ -19,17 +21,12 @@ static struct {
     uint32_t pauses_seen; // for STEPPER_EVENT_PAUSED
 } state;
 
-// Grows with each queue entry that is carried out, and when entries are dropped.
-static uint32_t ends(void) {
-    return governor_executed() + governor_drops();
-}
-
 void alarm_reset(void) {
     uint32_t drops = state.drops + 1;
     memset(&state, 0, sizeof state);
     state.drops = drops;
     machine.alarm = false;
-    state.ends_seen = ends();
+    state.ends_seen = governor_ends();
     state.pauses_seen = governor_pauses();
 }
 
@@ -52,7 +49,7 @@ static void follow_trip(void) {
         stepper_raise_event(STEPPER_EVENT_LIMIT);
     }
     machine.alarm = true;
-    state.ends_seen = ends();
+    state.ends_seen = governor_ends();
     state.drops++;
 }
 
@@ -120,26 +117,33 @@ void stepper_raise_event(stepper_event_t event) {
 static stepper_event_t __attribute__((noinline)) look_for_event(void) {
     alarm_follow();
     bool idle = !governor_working() && stepper_cycle() == STEPPER_CYCLE_NONE;
-    if (idle && ends() != state.ends_seen) {
-        state.ends_seen = ends();
+    if (idle && governor_ends() != state.ends_seen) {
+        state.ends_seen = governor_ends();
         stepper_raise_event(STEPPER_EVENT_IDLE);
     }
     if (governor_paused() && governor_pauses() != state.pauses_seen) {
         state.pauses_seen = governor_pauses();
         stepper_raise_event(STEPPER_EVENT_PAUSED);
     }
-    if (state.events == 0) {
+    uint32_t events = state.events & ~LOOK;
+    if (!machine.limit_active) {
+        state.events = (uint16_t)events;
+    }
+    if (events == 0) {
         return STEPPER_EVENT_NONE;
     }
-    stepper_event_t event = (stepper_event_t)__builtin_ctz(state.events);
-    state.events = (uint16_t)(state.events & (state.events - 1));
+    stepper_event_t event = (stepper_event_t)__builtin_ctz(events);
+    state.events = (uint16_t)(state.events & ~(1u << event));
     return event;
 }
 
 stepper_event_t stepper_next_event(void) {
-    bool news = state.events != 0 || machine.limit_active ||
-                governor_has_news(state.ends_seen, state.pauses_seen);
+    bool news = state.events != 0 || governor_ends() != state.ends_seen;
     return news ? look_for_event() : STEPPER_EVENT_NONE;
+}
+
+void alarm_look(void) {
+    state.events |= LOOK;
 }
 
 void alarm_count_drop(void) {

@@ -18,6 +18,9 @@ const char *alarm_names(char names[ALARM_NAMES_SIZE]);
 // Somebody has looked at the machine: no alarm any more. Error: E-STOP is pressed.
 err_t alarm_acknowledge(void);
 
+// stepper_next_event() follows as long as a switch is overridden.
+void alarm_look(void);
+
 // The queue has been dropped (stepper_drops).
 void alarm_count_drop(void);
 

@@ -394,6 +394,6 @@ bool governor_tripped(void) {
     return governor.tripped != 0;
 }
 
-bool governor_has_news(uint32_t ends, uint32_t pauses) {
-    return blocks.executed + governor.drops != ends || governor.pauses != pauses;
+uint32_t governor_ends(void) {
+    return blocks.executed + governor.drops + governor.pauses;
 }

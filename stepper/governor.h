@@ -72,10 +72,9 @@ float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow
-// Whether more or less than this many motions and pauses have come to their end, as
-// governor_executed() + governor_drops() and governor_pauses() count them; so does a trip, which
-// drops the queue. Asked often.
-bool governor_has_news(uint32_t ends, uint32_t pauses);
+// Grows with each queue entry that is carried out, each pause that is reached, and when the queue is
+// dropped. Asked often.
+uint32_t governor_ends(void);
 bool governor_tripped(void); // governor_take_trip() has something to tell
 
 #endif

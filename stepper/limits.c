@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "stepper/alarm.h"
 #include "stepper/governor.h"
 #include "stepper/machine.h"
 #include "stepper/rules.h"
@@ -100,6 +101,7 @@ static void override(uint32_t switches) {
     limits.overridden = (uint8_t)(switches & ~limits.excepted);
     limits.released = 0;
     machine.limit_active = limits.overridden != 0;
+    alarm_look();
     apply();
 }
 
