@@ -72,8 +72,8 @@ float governor_speed(void);       // along the path, units/s
 bool governor_working(void);      // segments are executed, or blocks wait and are allowed to start
 uint32_t governor_executed(void); // blocks since governor_reset()
 uint32_t governor_drops(void);    // times the queue was dropped by a stop: the planner must follow
-// Grows with each queue entry that is carried out, each pause that is reached, and when the queue is
-// dropped. Asked often.
+// Grows with each queue entry that is carried out, each pause that is reached, and when the queue
+// is dropped. Asked often.
 uint32_t governor_ends(void);
 bool governor_tripped(void); // governor_take_trip() has something to tell
 
