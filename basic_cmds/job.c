@@ -55,7 +55,8 @@ err_t job_check(const basic_arg_t *args, size_t count) {
         return err_raise(ERR_NO_MEMORY, NULL);
     }
     err_t err = gcode_survey(memory, args[0].text.text, args[0].text.length, go_on, &report);
-    if (report.lines == 0 || basic_break_pending()) {
+    bool unread = err != ERR_OK && report.lines == 0;
+    if (unread || basic_break_pending()) {
         return err;
     }
     err_kept_t kept;
@@ -94,7 +95,11 @@ static void tell_end(void) {
         basic_notice("G-code file done");
         break;
     case GCODE_JOB_STOPPED:
-        basic_notice("G-code file stopped in line %u", line);
+        if (line == 0) {
+            basic_notice("G-code file stopped before its first line");
+        } else {
+            basic_notice("G-code file stopped in line %u", line);
+        }
         break;
     case GCODE_JOB_FAILED:
         basic_notice("G-code file ended before line %u", (unsigned)gcode_job_read_line());

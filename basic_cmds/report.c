@@ -6,6 +6,7 @@
 
 #include "basic_cmds/machine_outputs.h"
 #include "basic_cmds/homing.h"
+#include "basic_cmds/job.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"
@@ -177,8 +178,18 @@ int report_active(void) {
 }
 
 err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) {
+    static const basic_evaluate_t others[] = {
+        safety_peek_event,
+        job_line,
+        job_percent,
+        machine_outputs_peek_spindle,
+        machine_outputs_peek_coolant,
+    };
     (void)count;
     int64_t what = args[0].integer;
+    if (what >= PEEK_OTHERS) {
+        return others[what - PEEK_OTHERS](NULL, 0, result);
+    }
     if (what < AXIS_COUNT) {
         axis_id_t axis = (axis_id_t)what;
         if (!stepper_axis_configured(axis)) {

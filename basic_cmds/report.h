@@ -14,8 +14,10 @@ err_t report_buffer(const basic_arg_t *args, size_t count);
 err_t report_free_slots(const basic_arg_t *args, size_t count, basic_value_t *result);
 
 // PEEK(STEPPER what); PEEK_CHOICES says what there is, in the order of the handler's cases.
-#define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER|SPEED"
+// Those from PEEK_OTHERS on have rows of their own as well, which explain them.
+#define PEEK_CHOICES "X|Y|Z|A|ACTIVE|STATUS|BUFFER|SPEED|EVENT|LINE|PERCENT|SPINDLE|COOLANT"
 #define PEEK_SPEED (AXIS_COUNT + 3)
+#define PEEK_OTHERS (AXIS_COUNT + 4)
 err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result);
 
 #endif

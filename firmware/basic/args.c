@@ -68,12 +68,27 @@ static bool is_number(const basic_arg_spec_t *spec) {
     return spec->kind == BASIC_ARG_NUMBER || spec->kind == BASIC_ARG_INTEGER;
 }
 
+// OFF and ON where 0 or 1 is asked for. As names of variables both would be 0.
+static bool compile_switch(const basic_arg_spec_t *spec, bool in_parentheses) {
+    bool is_switch = spec->kind == BASIC_ARG_INTEGER && spec->min == 0.0 && spec->max == 1.0;
+    bool is_on = lexer_is_word("ON");
+    if (!is_switch || !(is_on || lexer_is_word("OFF")) || !stands_alone(in_parentheses)) {
+        return false;
+    }
+    emit_integer(is_on);
+    lexer_next();
+    return true;
+}
+
 static void compile_argument(const basic_arg_spec_t *spec, bool in_parentheses) {
     const lexer_token_t *token = lexer_now();
     if (is_number(spec) && choices_find(spec->choices, token->text, token->length) >= 0 &&
         stands_alone(in_parentheses)) {
         emit_string(token->text, token->length);
         lexer_next();
+        return;
+    }
+    if (compile_switch(spec, in_parentheses)) {
         return;
     }
     if (spec->kind == BASIC_ARG_DATA) {

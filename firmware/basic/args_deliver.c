@@ -64,7 +64,7 @@ void args_format_limit(char *buffer, double limit) {
 }
 
 static _Noreturn void fail_range(const basic_arg_spec_t *spec, const value_t *value) {
-    char range[80];
+    char range[96];
     char shown[48];
     args_describe_range(spec, range, sizeof range);
     errors_fail_with(ERR_ARGUMENT, "%s: %s is invalid (valid is %s)", spec->name,

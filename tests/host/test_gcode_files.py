@@ -105,6 +105,7 @@ def test_where_a_program_begins_and_ends(tmp_path: Path, text: str, y: float) ->
     shown = answers(tmp_path, {"a.nc": text}, *ARMED, 'STEPPER FILE "a.nc"', WAIT, look)
     assert shown[-2:] == ["G-code file done", f" {y}"]
     check = answers(tmp_path, {"a.nc": text}, *ARMED, 'STEPPER CHECK "a.nc"')
+    assert "Lines: " in "".join(check)
     assert [line for line in check if line.startswith("Y:")] == (
         [f"Y: 0.000 to {y}.000 mm, machine 0.000 to {y}.000 mm"] if y else []
     )
@@ -131,6 +132,13 @@ def test_a_refused_line_ends_the_file(tmp_path: Path, line: str, error: str) -> 
     shown = answers(tmp_path, {"a.nc": text}, *ARMED, 'STEPPER CHECK "a.nc"')
     assert shown[-1] == f"Error : Line 4: {error}"
     assert "Y: 0.000 to 5.000 mm, machine 0.000 to 5.000 mm" in shown
+
+
+def test_a_file_that_is_stopped_at_once(tmp_path: Path) -> None:
+    """None of its lines was reached: there is no line 0."""
+    line = 'STEPPER FILE "a.nc" : STEPPER STOP'
+    shown = answers(tmp_path, {"a.nc": LONG}, *ARMED, line, WAIT)
+    assert shown[-1] == "G-code file stopped before its first line"
 
 
 def test_what_is_not_ready_or_not_there(tmp_path: Path) -> None:

@@ -34,6 +34,12 @@ def number(text: str) -> float:
     [
         ("STEPPER SCURVE", "Missing on"),
         ("STEPPER SCURVE 2", "on: 2 is invalid (valid is 0 to 1)"),
+        ("STEPPER SCURVE on + 2", "on: 2 is invalid (valid is 0 to 1)"),
+        (
+            "PRINT PEEK(STEPPER FOO)",
+            "what: FOO is invalid (valid is X, Y, Z, A, ACTIVE, STATUS, BUFFER, SPEED, EVENT, "
+            "LINE, PERCENT, SPINDLE, COOLANT)",
+        ),
         ("STEPPER ARC LEGACY", "Missing on"),
         ("STEPPER ARC LEGACY 2", "on: 2 is invalid (valid is 0 to 1)"),
         ("STEPPER ARC 0", "tolerance: 0 is invalid (valid is above 0 to 10)"),
@@ -219,3 +225,27 @@ def test_axes_may_follow_run_at_once() -> None:
         ": STEPPER POSITION X,3 : STEPPER SPINDLE GP8 : PRINT PEEK(STEPPER X)"
     )
     assert shown == ["Stepper initialized, buffer 32\nStepper armed\n 3"]
+
+
+def test_on_and_off_where_0_or_1_is_asked_for() -> None:
+    """Everywhere in STEPPER commands; OFF would be a variable, and ON as well, and 0."""
+    status = answers(
+        *INIT,
+        "STEPPER SCURVE ON",
+        "STEPPER HWLIMITS KEEP on",
+        "STEPPER STATUS",
+        "STEPPER SCURVE off",
+        "STEPPER HWLIMITS KEEP OFF",
+        "STEPPER STATUS",
+    )
+    for shown, scurve, keep in ((status[3], "ON", "YES"), (status[6], "OFF", "NO")):
+        assert f"S-curve: {scurve}, " in shown
+        assert f"drivers stay on behind a limit: {keep}" in shown
+
+
+def test_peek_of_what_a_string_names() -> None:
+    """A panel program may keep the names in an array."""
+    words = ("EVENT", "LINE", "PERCENT", "SPINDLE", "COOLANT", "ACTIVE", "SPEED")
+    shown = answers(*[f'PRINT PEEK(STEPPER "{word}")' for word in words])
+    for word, answer in zip(words, shown, strict=True):
+        assert number(answer) == (-1 if word == "ACTIVE" else 0), word
