@@ -12,6 +12,7 @@
 #include "stepper/extremes.h"
 #include "stepper/geometry.h"
 #include "stepper/planner.h"
+#include "stepper/span.h"
 #include "stepper/stepper_estimate.h"
 
 #define WINDOW STEPPER_ESTIMATE_MOVES
@@ -57,10 +58,20 @@ static float ramp_time(float change, float acceleration, float jerk) {
                : change / acceleration + acceleration / jerk;
 }
 
+// The C library's differs from board to board. A third of the bits of a float is its cube root to
+// within 4 %; each of Newton's steps squares what is wrong with that.
+static float cube_root(float x) {
+    float root = span_float_from_bits(span_float_bits(x) / 3 + 0x2A5119F2u);
+    for (unsigned n = 0; n < 3; n++) {
+        root -= (root - x / (root * root)) / 3.0f;
+    }
+    return root;
+}
+
 // The speed that is reached from rest on half of `length`.
 static float speed_within(float length, float acceleration, float jerk) {
     float half = 0.5f * length;
-    float by_jerk = cbrtf(half * half * jerk); // half = v sqrt(v / J)
+    float by_jerk = cube_root(half * half * jerk); // half = v sqrt(v / J)
     if (by_jerk * jerk < acceleration * acceleration) {
         return by_jerk;
     }
