@@ -1,8 +1,8 @@
 // Spindle, coolant and pauses: what the user is told about them. Context: main loop.
 #include "basic_cmds/machine_outputs.h"
 
-#include "stepper/stepper.h"
 #include "gcode/gcode.h"
+#include "stepper/stepper.h"
 #include "stepper/stepper_outputs.h"
 
 static const char *on_off(bool on) {

@@ -1,12 +1,12 @@
 // STEPPER STATUS and PEEK(STEPPER ...). Context: main loop.
-#include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/report.h"
 
 #include <math.h>
 
-#include "basic_cmds/machine_outputs.h"
+#include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/homing.h"
 #include "basic_cmds/job.h"
+#include "basic_cmds/machine_outputs.h"
 #include "basic_cmds/safety.h"
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"

@@ -1,6 +1,6 @@
 // Short forms for the rows of this folder. Inside basic_cmds/ only.
-#ifndef ROW_ARGS_H
-#define ROW_ARGS_H
+#ifndef BASIC_CMDS_ROW_ARGS_H
+#define BASIC_CMDS_ROW_ARGS_H
 
 #include "basic/basic.h"
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "basic_cmds/events.h"
-#include "basic_cmds/report.h"
 #include "basic_cmds/machine_outputs.h"
+#include "basic_cmds/report.h"
 #include "gcode/gcode.h"
 #include "stepper/stepper_safety.h"
 

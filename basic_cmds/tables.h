@@ -1,6 +1,6 @@
 // The tables of rows, one for each subject. Inside basic_cmds/ only.
-#ifndef TABLES_H
-#define TABLES_H
+#ifndef BASIC_CMDS_TABLES_H
+#define BASIC_CMDS_TABLES_H
 
 #include "basic/basic.h"
 

@@ -41,7 +41,7 @@ err_t gcode_plan_begin(gcode_plan_t *plan, const gcode_state_t *before,
                        const double from[AXIS_COUNT]);
 
 // The next entry, when all before it end at `from`. `state` is that before the line, or the one
-// behind it. 1: there is one, 0: no more, negative: an error (err_code()).
+// behind it. *more: there is one. Errors: of arcs.
 err_t gcode_plan_next(gcode_plan_t *plan, const gcode_state_t *state, const double from[AXIS_COUNT],
                       gcode_entry_t *entry, bool *more);
 

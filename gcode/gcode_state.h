@@ -49,9 +49,9 @@ typedef struct {
 // Places that G28.1 and G30.1 have stored.
 typedef enum { STORED_G28, STORED_G30, STORED_COUNT } stored_t;
 
-// Where the words of a canned cycle and its progress are kept; see gcode_cycle.h.
+// What the lines of a canned cycle have set; see gcode_cycle.h.
 typedef struct {
-    double z, r, q, p; // words of the cycle's lines, which stay until the cycle ends; mm, p in ms
+    double z, r, q, p; // words, which stay until the cycle ends; mm, p in ms
     double initial_z;  // machine coordinate at which the first of a series of cycles began
     uint8_t motion;    // motion_t of the line that set them
 } gcode_cycle_words_t;

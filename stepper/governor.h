@@ -42,9 +42,9 @@ void governor_hold(bool hold);
 // Contexts: also governor.
 void governor_fill(uint32_t ticks);
 
-// Ends all motion within this call, in this order: step pins low, spindle off, drivers off unless
-// they are to stay on, queue dropped, disarmed. True if a motor was in motion: it may have slipped.
-// Contexts: also governor.
+// Ends all motion within this call, in this order: step pins low, spindle and coolant off, drivers
+// off unless they are to stay on, queue dropped, disarmed. True if a motor was in motion: it may
+// have slipped. Contexts: also governor.
 bool governor_emergency_stop(bool keep_enabled);
 
 // What the tick's inputs have done since the last call: the pins that stopped the machine, 0 if

@@ -1,6 +1,6 @@
 // Homing as a cycle. Inside stepper/ only. Context: main loop.
-#ifndef HOMING_H
-#define HOMING_H
+#ifndef STEPPER_HOMING_H
+#define STEPPER_HOMING_H
 
 #include "stepper/home_config.h"
 

@@ -27,16 +27,16 @@ typedef struct {
     uint32_t pins_set; // driven at the segment's first tick: direction, spindle, enable
     uint32_t pins_clear;
     uint32_t end_ticks; // ticks of all segments up to the end of this one, modulo 2^32
-    uint32_t flags;     // bit n: axis n counts down; SEGMENT_MAY_END; upper half: level of the PWM
+    uint32_t flags;     // bit n: axis n counts down; SEGMENT_MAY_END; upper half: PWM level
 } segment_t;
 
 #define SEGMENT_MAY_END (1u << 8) // the machine stands at its end; the ring may be empty behind it
+#define SEGMENT_LEVEL_SHIFT 16
 
 typedef struct {
     ring_t ring;
     segment_t slots[SEGMENTS];
 } segment_ring_t;
-#define SEGMENT_LEVEL_SHIFT 16
 
 extern segment_ring_t segments;
 

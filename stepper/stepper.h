@@ -93,8 +93,8 @@ err_t stepper_hold(bool hold);
 // queued. The axes' limits stay. INIT sets 100.
 err_t stepper_override(int feed_percent, int rapid_percent);
 
-// Emergency stop: no further step, queue dropped, spindle off, drivers off (unless INIT keeps
-// them), disarmed. After a stop from speed the position counts as unknown.
+// Emergency stop: no further step, spindle and coolant off, drivers off (unless INIT keeps them),
+// queue dropped, disarmed. After a stop from speed the position counts as unknown.
 err_t stepper_estop(void);
 
 // Controlled stop, then gives all pins back. Waits for standstill.

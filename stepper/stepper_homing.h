@@ -3,8 +3,8 @@
 // every move: stepper_background() takes it from one move to the next. While one is under way new
 // moves and jogs are refused. Whoever has to wait for its end asks stepper_cycle() and reads
 // stepper_cycle_result() then. Context: main loop.
-#ifndef STEPPER_HOMING_H
-#define STEPPER_HOMING_H
+#ifndef STEPPER_STEPPER_HOMING_H
+#define STEPPER_STEPPER_HOMING_H
 
 #include "stepper/stepper.h"
 

@@ -2,10 +2,10 @@
 // further face of stepper/, beside stepper.h. Context: main loop.
 //
 // The E-STOP and limit inputs are watched while the machine is armed. If one of them trips, no step
-// follows after the next tick, and everything else is done at once and in this order: spindle off,
-// drivers off (unless they are to stay on), queue dropped, disarmed. If a motor was in motion the
-// position counts as unknown; otherwise it is what it was. An alarm is left, which refuses RUN,
-// moves and jogs until somebody says that the machine has been looked at.
+// follows after the next tick, and everything else is done at once and in this order: spindle and
+// coolant off, drivers off (unless they are to stay on), queue dropped, disarmed. If a motor was in
+// motion the position counts as unknown; otherwise it is what it was. An alarm is left, which
+// refuses RUN, moves and jogs until somebody says that the machine has been looked at.
 #ifndef STEPPER_SAFETY_H
 #define STEPPER_SAFETY_H
 
@@ -85,8 +85,8 @@ typedef struct {
 void stepper_last_trip(stepper_trip_t *trip);
 
 // Acknowledges the alarm, whatever it is: stops what moves (by an emergency stop that leaves the
-// drivers as they are), spindle off, queue dropped, disarmed. The position stays what it is, unless
-// a motor was in motion. Errors: not initialised, E-STOP pressed.
+// drivers as they are), spindle and coolant off, queue dropped, disarmed. The position stays what
+// it is, unless a motor was in motion. Errors: not initialised, E-STOP pressed.
 err_t stepper_recover(void);
 
 // ---- Events -------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// Configuration: INIT, axes, limits, spindle, and giving it all back. Context: main loop.
+// Configuration: INIT, axes, soft limits, settings, and giving it all back. Context: main loop.
 #include "hal/hal_io.h"
 #include "stepper/alarm.h"
 #include "stepper/axis.h"
@@ -231,7 +231,7 @@ err_t stepper_jerk(double path, const double axis[AXIS_COUNT]) {
 // Everything at rest and off, all pins but the E-STOP input's given back.
 static void forget_machine(void) {
     hal_governor_lock();
-    governor_emergency_stop(false); // spindle off, drivers off, disarmed
+    governor_emergency_stop(false); // spindle, coolant and drivers off, disarmed
     hal_governor_unlock();
     machine_follow_stops();
     cycle_forget();

@@ -1,8 +1,8 @@
 // The words of a product as rows: commands, functions and assignments with their arguments.
 // Parsing, range checks, error texts, HELP and the reference page all come from them. Part of
 // basic.h. Context: main loop.
-#ifndef BASIC_ROWS_H
-#define BASIC_ROWS_H
+#ifndef BASIC_BASIC_ROWS_H
+#define BASIC_BASIC_ROWS_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // The rows of the configuration's tables, numbered through. Context: main loop.
-#ifndef ROWS_H
-#define ROWS_H
+#ifndef BASIC_ROWS_H
+#define BASIC_ROWS_H
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-// PWM slices. Context: main; hal_pwm_start() also in the governor, which stops a spindle.
+// PWM slices. Context: main; starting and stopping also in the governor, which stops a spindle.
 #include "hal/hal.h"
 #include "hal/hal_io.h"
 
