@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-#define MM_PER_INCH 25.4
-
 // ---- Which code uses what -----------------------------------------------------------------------
 
 // The dialect says what G28 is, P what G30 goes to.
@@ -143,14 +141,14 @@ static void convert_inches(line_t *line) {
                                       WORD_J, WORD_K, WORD_Q, WORD_R};
     for (unsigned i = 0; i < COUNT_OF_ARRAY(lengths); i++) {
         if (line_has(line, (word_t)lengths[i])) {
-            line->value[lengths[i]] *= MM_PER_INCH;
+            line->value[lengths[i]] *= GCODE_MM_PER_INCH;
         }
     }
     if (blends(line) && line_has(line, WORD_P)) {
-        line->value[WORD_P] *= MM_PER_INCH;
+        line->value[WORD_P] *= GCODE_MM_PER_INCH;
     }
     if (!line->modal.inverse_time && line_has(line, WORD_F)) {
-        line->value[WORD_F] *= MM_PER_INCH;
+        line->value[WORD_F] *= GCODE_MM_PER_INCH;
     }
 }
 

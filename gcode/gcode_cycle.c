@@ -72,7 +72,7 @@ static err_t check_repeats(const line_t *line, double *repeats) {
     return ERR_OK;
 }
 
-static err_t check_shape(const gcode_cycle_t *cycle, double repeats) {
+static err_t check_shape(const gcode_cycle_t *cycle, const line_t *line, double repeats) {
     if (cycle->r_z < cycle->hole_z) {
         return err_raise(ERR_GCODE_CYCLE_UP, NULL);
     }
@@ -80,7 +80,8 @@ static err_t check_shape(const gcode_cycle_t *cycle, double repeats) {
         return repeats <= PECKS_MAX ? ERR_OK : err_raise(ERR_GCODE_CYCLE_LONG, NULL);
     }
     if (!(cycle->words.q > 0.0)) {
-        return err_raise(ERR_GCODE_RANGE, "Q: %g is invalid (valid is above 0)", cycle->words.q);
+        double typed = line->modal.inches ? cycle->words.q / GCODE_MM_PER_INCH : cycle->words.q;
+        return err_raise(ERR_GCODE_RANGE, "Q: %.10g is invalid (valid is above 0)", typed);
     }
     bool fits = (cycle->r_z - cycle->hole_z) / cycle->words.q * repeats <= PECKS_MAX;
     return fits ? ERR_OK : err_raise(ERR_GCODE_CYCLE_LONG, NULL);
@@ -137,7 +138,7 @@ err_t gcode_cycle_begin(gcode_cycle_t *cycle, const line_t *line, const gcode_cy
     memcpy(cycle->at, from, sizeof cycle->at);
     find_planes(cycle, line, from, offset);
     find_step(cycle, line, from, offset);
-    return check_shape(cycle, repeats);
+    return check_shape(cycle, line, repeats);
 }
 
 // ---- Its entries --------------------------------------------------------------------------------

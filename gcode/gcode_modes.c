@@ -33,7 +33,7 @@ size_t gcode_modes(char *text) {
                                                        "G59", "G59.1", "G59.2", "G59.3"};
     static const char *const spindles[] = {"M5", "M3", "M4"};
     const modal_t *modal = &gcode_live.state.modal;
-    double feed = modal->inches ? modal->feed / 25.4 : modal->feed;
+    double feed = modal->inches ? modal->feed / GCODE_MM_PER_INCH : modal->feed;
     return format_text(
         text, GCODE_MODES_SIZE, "%s %s G%d %s %s %s %s G40 %s %s %s %s %s T%u F%.9g S%.9g",
         motion_text((motion_t)modal->motion), systems[modal->system], 17 + modal->plane,

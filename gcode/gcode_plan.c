@@ -7,8 +7,6 @@
 #include "gcode/gcode_check.h"
 #include "stepper/stepper_check.h"
 
-#define MM_PER_INCH 25.4
-
 // ---- Which steps --------------------------------------------------------------------------------
 
 static uint32_t bit(step_t step) {
@@ -147,7 +145,7 @@ static err_t set_feed(const line_t *line, gcode_entry_t *entry, const double fro
         }
         move->feed = fmin(fmax(way * line->value[WORD_F], GCODE_FEED_MIN), GCODE_FEED_MAX);
     } else if (modal->feed_in_inches && entry->kind != ENTRY_ARC && turns_only(entry, from)) {
-        move->feed = modal->feed / MM_PER_INCH; // degrees are the same in all units
+        move->feed = modal->feed / GCODE_MM_PER_INCH; // degrees are the same in all units
     }
     return ERR_OK;
 }

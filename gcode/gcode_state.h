@@ -5,6 +5,8 @@
 
 #include "gcode/gcode.h"
 
+#define GCODE_MM_PER_INCH 25.4
+
 // Modal group 1. Those from MOTION_CYCLE_CHIPS on are canned cycles.
 typedef enum {
     MOTION_NONE, // G80, and after power-up

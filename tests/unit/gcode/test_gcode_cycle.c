@@ -231,6 +231,7 @@ static void test_refusals_change_nothing(void) {
     check_refused("G82 X1 Z-1 R2 P-1", "P: -1 is invalid (valid is 0 to 86400000)");
     check_refused("G83 X1 Z-1 R2 Q0", "Q: 0 is invalid (valid is above 0)");
     check_refused("G83 X1 Z-1 R2 Q-1", "Q: -1 is invalid (valid is above 0)");
+    check_refused("G20 G83 X1 Z-1 R2 Q-1", "Q: -1 is invalid (valid is above 0)");
     check_refused("G81 X1 Z-1 R2 L0", "L: 0 is invalid (valid is 1 to 9999)");
     check_refused("G81 X1 Z-1 R2 L1.5", "L: 1.5 is no whole number");
     check_refused("G81 X1 Z-1 R2 L10000", "L: 10000 is invalid (valid is 1 to 9999)");
