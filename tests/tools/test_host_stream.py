@@ -36,12 +36,15 @@ SETUP = [
 class HostBoard:
     """The host program with the far end of a pty as its console."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, machine=""):
         self.trace = folder / "edges.csv"
         self._far, self._near = os.openpty()
         tty.setraw(self._near)
         self.device = os.ttyname(self._near)
         command = [HOST, "--virtual", "--trace", self.trace]
+        if machine:
+            (folder / "machine.txt").write_text(machine)
+            command += ["--machine", folder / "machine.txt"]
         self.process = subprocess.Popen(command, stdin=self._far, stdout=self._far)
 
     def close(self):
@@ -160,6 +163,62 @@ def test_a_pause_lasts_until_somebody_acts(board, setup_file):
         stream_pauses(board, setup_file, lambda streamer: streamer.cancel())
     with Board.open(board.device) as prompt:
         assert prompt.peek("X") == 5
+
+
+HOMES = ["G21 G90 G1 X5 F6000", "M0", "X7", "G28 X0", "X9", "M30"]
+
+
+def test_homing_and_pauses_in_a_file(tmp_path):
+    """Homing waits for what was sent, which a pause may hold up; the machine is armed by then."""
+    switch = "axis X step=2 dir=3 at=800\nswitch pin=16 axis=X to=0\n"
+    machine = HostBoard(tmp_path, switch)
+    file = tmp_path / "machine.bas"
+    file.write_text("\n".join([*SETUP, "STEPPER HWLIMITS GP16", "STEPPER GC G28"]))
+    told = []
+
+    def answer(notice):
+        told.append(notice)
+        if "STEPPER RESUME" in notice:
+            streamer.resume()
+
+    try:
+        with Board.open(machine.device) as prompt:
+            run_setup(prompt, file)
+            prompt.on_notice = answer
+            streamer = Streamer(prompt, prepare("part.nc", HOMES))
+            streamer.run()
+            assert sum("STEPPER RESUME" in line for line in told) == 1
+            assert prompt.peek("X") == 9
+    finally:
+        machine.close()
+
+
+def test_ctrl_c_while_the_setup_homes(tmp_path):
+    """The axis brakes; nothing of the file has been sent."""
+    machine = HostBoard(tmp_path, "axis X step=2 dir=3 at=800000\n")
+    file, part = tmp_path / "machine.bas", tmp_path / "part.nc"
+    lines = [*SETUP, "STEPPER HWLIMITS GP16", "STEPPER HOME X,,1,,,9999", "STEPPER GC G28"]
+    file.write_text("\n".join(lines))
+    part.write_text("G1 X1 F100\n")
+    command = [sys.executable, "-m", "stepmite.cli", "stream", part, "--port", machine.device]
+    process = subprocess.Popen(
+        [*command, "--setup", file], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        deadline = time.monotonic() + 20
+        while not machine.trace.exists() or machine.trace.stat().st_size < 10_000:
+            assert process.poll() is None, process.communicate()
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=20)
+        assert process.returncode == 130, output + errors
+        assert "Stopped while the machine was set up" in output
+        with Board.open(machine.device) as prompt:
+            assert prompt.peek("ACTIVE") == 0
+    finally:
+        process.kill()
+        machine.close()
 
 
 def test_the_machine_must_be_set_up(board, tmp_path):

@@ -24,9 +24,10 @@ _STATUS_POSITION_KNOWN = 1 << 7
 _STATUS_ESTOP = 1 << 6
 _POLL_S = (0.005, 0.1)
 _ANSWER_S = 60.0
-_CYCLE_S = 3600.0
+CYCLE_S = 3600.0
+"""Homing may take so long."""
 _CYCLE = re.compile(r"G0*(28|38)", re.IGNORECASE)
-"""Homing and probing: the board answers when they have ended."""
+"""Homing and probing: the board answers when they have ended. They need a machine at rest."""
 STUCK_S = 3.0
 """A queue that stays full for so long while nothing moves is given up."""
 
@@ -123,6 +124,10 @@ def _statement(code: str) -> str:
     return f'STEPPER GS "{code}"'
 
 
+def _is_cycle(line: Line) -> bool:
+    return _CYCLE.search(line.code) is not None
+
+
 class Streamer:
     """Sends one job. Create it, call run() once; cancel() may be called from a signal handler."""
 
@@ -167,6 +172,8 @@ class Streamer:
         try:
             self._check_ready()
             while self._sent < len(self._job.lines):
+                if _is_cycle(self._job.lines[self._sent]):
+                    self._wait_for_rest()
                 self._send_batch(self._next_batch())
             if self._to_the_end:
                 self._wait_for_end()
@@ -183,7 +190,9 @@ class Streamer:
         if self._board.peek("ACTIVE") < 0:
             raise JobError("the machine is not set up: STEPPER INIT and STEPPER AXIS come first")
         if not int(self._board.peek("STATUS")) & _STATUS_POSITION_KNOWN:
-            raise JobError("the position is not known: STEPPER POSITION HOME comes first")
+            raise JobError(
+                "the position is not known: STEPPER GC G28 or STEPPER POSITION HOME comes first"
+            )
         self._ask_for_slots()
 
     def _wait_for_end(self) -> None:
@@ -197,6 +206,19 @@ class Streamer:
         self._check_unharmed()
         self._queue.clear()
         self._report(self._job.duration_s)
+
+    def _wait_for_rest(self) -> None:
+        """Come back when all that was sent has been carried out and the machine is armed.
+
+        The board would wait as well, but then nobody could end a pause of the program from here.
+        """
+        self._start_if_idle()
+        while self._board.peek("ACTIVE") > 0:
+            self._check_user()
+            self._ask_for_slots()
+            time.sleep(_POLL_S[1])
+        self._check_unharmed()
+        self._ask_for_slots()
 
     def _check_unharmed(self) -> None:
         status = int(self._board.peek("STATUS"))
@@ -276,6 +298,8 @@ class Streamer:
         batch: list[Line] = []
         length = slots = 0
         for line in lines[self._sent :]:
+            if batch and (_is_cycle(line) or _is_cycle(batch[0])):
+                break
             length += len(_statement(line.code)) + (len(_SEPARATOR) if batch else 0)
             slots += line.slots
             if batch and (length > LINE_MAX or slots > self._credit):
@@ -286,10 +310,9 @@ class Streamer:
     def _send_batch(self, batch: list[Line]) -> None:
         self._check_user()
         try:
-            cycles = any(_CYCLE.search(line.code) for line in batch)
             output = self._board.command(
                 _SEPARATOR.join(_statement(line.code) for line in batch),
-                timeout_s=_CYCLE_S if cycles else _ANSWER_S,
+                timeout_s=CYCLE_S if _is_cycle(batch[0]) else _ANSWER_S,
             )
         except BoardError as error:
             done = sum(1 for line in error.output if line.strip() == MARK)

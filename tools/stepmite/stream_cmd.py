@@ -58,6 +58,9 @@ def run(
             machine = machine_from_status(board.command("STEPPER STATUS"))
             job = stream.prepare(file.name, lines, machine)
             return _stream(board, job, reserve, arm, console)
+    except Cancelled:
+        console.print("Stopped while the machine was set up", style="yellow")
+        return EXIT_CANCELLED
     except (stream.JobError, BoardGone, OSError) as error:
         console.print(f"Error: {error}", style="red", markup=False, highlight=False)
         return EXIT_FAILED
@@ -71,11 +74,17 @@ def _show_notice(line: str, console: Console) -> None:
 
 
 def run_setup(board: Board, file: Path) -> None:
-    """Send the BASIC lines of a file one by one; JobError names the line that is refused."""
+    """Send the BASIC lines of a file one by one; JobError names the line that is refused.
+
+    Ctrl-C brings what a line has begun, homing for instance, to a controlled stop (Cancelled).
+    """
     for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
         if line.strip():
             try:
-                board.command(line.strip())
+                board.command(line.strip(), timeout_s=stream.CYCLE_S)
+            except KeyboardInterrupt:
+                board.stop()
+                raise Cancelled from None
             except (BoardError, ValueError) as error:
                 raise stream.JobError(f"{file.name}:{number}: {line.strip()}\n{error}") from None
 
