@@ -65,9 +65,7 @@ void basic_cmds_error(void) {
 }
 
 err_t basic_cmds_may_restart(void) {
-    stepper_status_t status;
-    stepper_status(&status);
-    bool active = status.moving || stepper_active() > 0 || gcode_job_runs();
+    bool active = stepper_active() > 0 || gcode_job_runs();
     return active ? err_raise(ERR_STEPPER_BUSY, "%s", "") : ERR_OK;
 }
 

@@ -5,10 +5,11 @@
 #include <math.h>
 
 #include "basic_cmds/gcode_lines.h"
+#include "basic_cmds/report.h"
 #include "gcode/gcode.h"
 #include "stepper/rules.h"
-#include "stepper/stepper.h"
 #include "stepper/stepper_axes.h"
+#include "stepper/stepper_check.h"
 #include "stepper/stepper_outputs.h"
 
 static err_t check_init(double tolerance, double blocks) {
@@ -60,7 +61,7 @@ static void warn_of_rate_limit(axis_id_t axis, double velocity) {
     double reachable = stepper_step_rate_limit(axis);
     if (velocity > reachable) {
         basic_printf("Warning: %c axis max speed limited to %.1f %s/min by the 50 kHz step rate\n",
-                     STEPPER_AXIS_LETTERS[axis], reachable, axis == AXIS_A ? "deg" : "mm");
+                     STEPPER_AXIS_LETTERS[axis], reachable, report_unit(axis));
     }
 }
 
@@ -85,7 +86,7 @@ err_t configure_axis(const basic_arg_t *args, size_t count) {
 }
 
 static void print_axis(axis_id_t axis, const stepper_axis_t *config) {
-    const char *unit = axis == AXIS_A ? "deg" : "mm";
+    const char *unit = report_unit(axis);
     basic_printf("%c axis: %.9g steps/%s, max %.9g %s/min, %.9g %s/s^2%s\n",
                  STEPPER_AXIS_LETTERS[axis], config->steps_per_unit, unit, config->max_velocity,
                  unit, config->max_acceleration, unit, config->dir_invert ? ", inverted" : "");
@@ -142,11 +143,10 @@ err_t configure_invert(const basic_arg_t *args, size_t count) {
 err_t configure_enable(const basic_arg_t *args, size_t count) {
     (void)count;
     axis_id_t axis = (axis_id_t)args[0].integer; // AXIS_COUNT: all of them
-    if (axis < AXIS_COUNT && stepper_active() >= 0 && !stepper_axis_configured(axis)) {
-        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
-    }
-    uint32_t wanted = axis == AXIS_COUNT ? (1u << AXIS_COUNT) - 1 : 1u << axis;
-    return stepper_enable(wanted, args[1].integer != 0);
+    bool one = axis < AXIS_COUNT;
+    err_t err = one && stepper_active() >= 0 ? stepper_check_axis(axis) : ERR_OK;
+    uint32_t wanted = one ? 1u << axis : (1u << AXIS_COUNT) - 1;
+    return err == ERR_OK ? stepper_enable(wanted, args[1].integer != 0) : err;
 }
 
 err_t configure_reset(const basic_arg_t *args, size_t count) {
@@ -221,15 +221,4 @@ err_t configure_jerk(const basic_arg_t *args, size_t count) {
         axis_jerk[axis] = args[1 + axis].number;
     }
     return stepper_jerk(args[0].number, axis_jerk);
-}
-
-err_t configure_arc_legacy(const basic_arg_t *args, size_t count) {
-    (void)count;
-    err_t err = rules_check(RULES_DO_SETTING);
-    if (err == ERR_OK) {
-        gcode_options_t options = *gcode_options();
-        options.arc_legacy = args[0].integer != 0;
-        gcode_set_options(&options);
-    }
-    return err;
 }

@@ -17,7 +17,6 @@ err_t configure_coolant(const basic_arg_t *args, size_t count);
 err_t configure_junction(const basic_arg_t *args, size_t count);
 err_t configure_scurve(const basic_arg_t *args, size_t count);
 err_t configure_jerk(const basic_arg_t *args, size_t count);
-err_t configure_arc_legacy(const basic_arg_t *args, size_t count);
 
 #define CONFIGURE_TOLERANCE 0.05 // mm
 #define CONFIGURE_TOLERANCE_MAX 10.0

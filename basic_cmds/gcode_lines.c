@@ -1,4 +1,4 @@
-// STEPPER GC, GS, GCODE, DIALECT, BLOCKDELETE, OPTIONALSTOP. Context: main loop.
+// STEPPER GC, GS, GCODE, DIALECT, ARC LEGACY, BLOCKDELETE, OPTIONALSTOP. Context: main loop.
 #include "basic_cmds/gcode_lines.h"
 
 #include <ctype.h>
@@ -88,6 +88,13 @@ err_t gcode_lines_dialect(const basic_arg_t *args, size_t count) {
     options.nist = args[0].integer != 0;
     err_t err = job_check_free(); // the rest of the file would mean something else
     return err == ERR_OK ? set_options(&options) : err;
+}
+
+err_t gcode_lines_arc_legacy(const basic_arg_t *args, size_t count) {
+    (void)count;
+    gcode_options_t options = *gcode_options();
+    options.arc_legacy = args[0].integer != 0;
+    return set_options(&options);
 }
 
 err_t gcode_lines_block_delete(const basic_arg_t *args, size_t count) {

@@ -6,6 +6,7 @@
 
 err_t gcode_lines_text(const basic_arg_t *args, size_t count);
 err_t gcode_lines_words(const basic_arg_t *args, size_t count);
+err_t gcode_lines_arc_legacy(const basic_arg_t *args, size_t count);
 err_t gcode_lines_block_delete(const basic_arg_t *args, size_t count);
 err_t gcode_lines_optional_stop(const basic_arg_t *args, size_t count);
 

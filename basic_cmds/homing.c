@@ -6,7 +6,7 @@
 
 #include "basic_cmds/job.h"
 #include "gcode/gcode.h"
-#include "stepper/stepper.h"
+#include "stepper/stepper_check.h"
 #include "stepper/stepper_homing.h"
 
 // Homing that STEPPER HOME RUN has begun: no statement waits for it.
@@ -106,11 +106,12 @@ err_t homing_peek_probe(const basic_arg_t *args, size_t count, basic_value_t *re
         return ERR_OK;
     }
     axis_id_t axis = (axis_id_t)what;
-    if (!stepper_axis_configured(axis)) {
-        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
+    err_t err = stepper_check_axis(axis);
+    if (err == ERR_OK) {
+        double number = position[axis] - gcode_offset(axis);
+        *result = (basic_value_t){.type = BASIC_FLOAT, .number = number};
     }
-    *result = (basic_value_t){.type = BASIC_FLOAT, .number = position[axis] - gcode_offset(axis)};
-    return ERR_OK;
+    return err;
 }
 
 // ---- The end of a cycle -------------------------------------------------------------------------

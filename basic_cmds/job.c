@@ -1,6 +1,7 @@
 // STEPPER FILE, and what becomes of the file; STEPPER CHECK. Context: main loop.
 #include "basic_cmds/job.h"
 
+#include "basic_cmds/report.h"
 #include "gcode/gcode_job.h"
 #include "gcode/gcode_survey.h"
 #include "stepper/stepper_safety.h"
@@ -19,7 +20,7 @@ static bool go_on(void) {
 static void print_axis(axis_id_t axis, const gcode_report_t *report) {
     const gcode_range_t *work = &report->work[axis];
     const gcode_range_t *machine = &report->machine[axis];
-    const char *unit = axis == AXIS_A ? "deg" : "mm";
+    const char *unit = report_unit(axis);
     basic_printf("%c: %.3f to %.3f %s, machine %.3f to %.3f %s\n", STEPPER_AXIS_LETTERS[axis],
                  work->low, work->high, unit, machine->low, machine->high, unit);
 }

@@ -1,20 +1,16 @@
 // Spindle, coolant and pauses: what the user is told about them. Context: main loop.
 #include "basic_cmds/machine_outputs.h"
 
+#include "basic_cmds/report.h"
 #include "gcode/gcode.h"
-#include "stepper/stepper.h"
 #include "stepper/stepper_outputs.h"
-
-static const char *on_off(bool on) {
-    return on ? "ON" : "OFF";
-}
 
 void machine_outputs_report(void) {
     stepper_outputs_t outputs;
     stepper_outputs(&outputs);
     const stepper_spindle_t *spindle = &outputs.spindle;
     basic_printf("Spindle: %s%s, %s", pins_name(spindle->gpio), spindle->invert ? " inverted" : "",
-                 on_off(outputs.spindle_on));
+                 report_on_off(outputs.spindle_on));
     if (spindle->gpio != PINS_NONE && spindle->max_rpm > 0.0) {
         basic_printf(" %.0f rpm of %.0f to %.0f, PWM %g Hz", outputs.rpm, spindle->min_rpm,
                      spindle->max_rpm, spindle->pwm_hz);
@@ -30,8 +26,8 @@ void machine_outputs_report(void) {
     const stepper_coolant_t *coolant = &outputs.coolant;
     if (coolant->flood_gpio != PINS_NONE || coolant->mist_gpio != PINS_NONE) {
         basic_printf("Coolant: flood %s %s, mist %s %s%s\n", pins_name(coolant->flood_gpio),
-                     on_off(outputs.flood), pins_name(coolant->mist_gpio), on_off(outputs.mist),
-                     coolant->invert ? ", inverted" : "");
+                     report_on_off(outputs.flood), pins_name(coolant->mist_gpio),
+                     report_on_off(outputs.mist), coolant->invert ? ", inverted" : "");
     }
 }
 

@@ -11,18 +11,18 @@
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"
 #include "stepper/rules.h"
-#include "stepper/stepper.h"
+#include "stepper/stepper_check.h"
 #include "stepper/stepper_outputs.h"
 
 static const char *yes_no(bool yes) {
     return yes ? "YES" : "NO";
 }
 
-static const char *on_off(bool on) {
+const char *report_on_off(bool on) {
     return on ? "ON" : "OFF";
 }
 
-static const char *unit_of(axis_id_t axis) {
+const char *report_unit(axis_id_t axis) {
     return axis == AXIS_A ? "deg" : "mm";
 }
 
@@ -32,7 +32,7 @@ static void print_axis(axis_id_t axis) {
         return;
     }
     char name = STEPPER_AXIS_LETTERS[axis];
-    const char *unit = unit_of(axis);
+    const char *unit = report_unit(axis);
     double velocity = fmin(config.max_velocity, stepper_step_rate_limit(axis));
     basic_printf("%c: %.3f %s, machine %.3f %s (%ld steps)\n", name, gcode_work_position(axis),
                  unit, stepper_position(axis), unit, (long)stepper_position_steps(axis));
@@ -68,12 +68,12 @@ static void print_jerk(const char *before, double jerk, const char *unit) {
 static void print_profile(const stepper_status_t *status) {
     basic_printf("Junction deviation: %g mm, arc tolerance: %g mm\n", status->junction_deviation_mm,
                  status->arc_tolerance_mm);
-    basic_printf("S-curve: %s", on_off(status->scurve));
+    basic_printf("S-curve: %s", report_on_off(status->scurve));
     print_jerk(", Jerk: ", status->jerk, "mm");
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         if (status->axis_jerk[axis] > 0.0) {
             const char before[] = {',', ' ', STEPPER_AXIS_LETTERS[axis], ' ', '\0'};
-            print_jerk(before, status->axis_jerk[axis], unit_of(axis));
+            print_jerk(before, status->axis_jerk[axis], report_unit(axis));
         }
     }
     basic_printf("\n");
@@ -104,7 +104,7 @@ err_t report_status(const basic_arg_t *args, size_t count) {
     print_motion(&status);
     print_job();
     print_queue(&status);
-    basic_printf("Drivers off when idle: %s\n", on_off(status.idle == STEPPER_IDLE_DISABLE));
+    basic_printf("Drivers off when idle: %s\n", report_on_off(status.idle == STEPPER_IDLE_DISABLE));
     basic_printf("Override: feed %d %%, rapid %d %%\n", status.feed_override,
                  status.rapid_override);
     print_profile(&status);
@@ -192,11 +192,11 @@ err_t report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) 
     }
     if (what < AXIS_COUNT) {
         axis_id_t axis = (axis_id_t)what;
-        if (!stepper_axis_configured(axis)) {
-            return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
+        err_t err = stepper_check_axis(axis);
+        if (err == ERR_OK) {
+            *result = (basic_value_t){.type = BASIC_FLOAT, .number = peek_position(axis)};
         }
-        *result = (basic_value_t){.type = BASIC_FLOAT, .number = peek_position(axis)};
-        return ERR_OK;
+        return err;
     }
     if (what == PEEK_SPEED) {
         *result = (basic_value_t){.type = BASIC_FLOAT, .number = stepper_speed()};

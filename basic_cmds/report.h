@@ -3,12 +3,17 @@
 #define BASIC_CMDS_REPORT_H
 
 #include "basic/basic.h"
+#include "stepper/stepper.h"
 
 err_t report_status(const basic_arg_t *args, size_t count);
 // PEEK(STEPPER ACTIVE): -1 not initialised, 1 working, 0 idle.
 int report_active(void);
 
 err_t report_buffer(const basic_arg_t *args, size_t count);
+
+// How all reports put it.
+const char *report_unit(axis_id_t axis); // "mm" or "deg"
+const char *report_on_off(bool on);
 
 // MM.CODE
 err_t report_free_slots(const basic_arg_t *args, size_t count, basic_value_t *result);

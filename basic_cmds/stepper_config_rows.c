@@ -1,5 +1,6 @@
 // Rows of the commands that set the machine up. Context: main loop.
 #include "basic_cmds/configure.h"
+#include "basic_cmds/gcode_lines.h"
 #include "basic_cmds/row_args.h"
 #include "basic_cmds/tables.h"
 #include "stepper/stepper.h"
@@ -160,7 +161,7 @@ static const basic_command_t commands[] = {
     {"STEPPER JERK", ARGS(jerk_args), configure_jerk,
      "Sets how fast the acceleration of S-curves may change; for what is queued from now on"},
     {"STEPPER ARC", ARGS(arc_args), configure_arc, "Sets or shows the tolerance of arcs"},
-    {"STEPPER ARC LEGACY", ARGS(arc_legacy_args), configure_arc_legacy,
+    {"STEPPER ARC LEGACY", ARGS(arc_legacy_args), gcode_lines_arc_legacy,
      "Chooses what A means on an arc"},
 };
 

@@ -5,6 +5,7 @@
 
 #include "gcode/gcode_check.h"
 #include "gcode/gcode_codes.h"
+#include "stepper/stepper_check.h"
 
 #define NO_WORD WORDS
 
@@ -60,8 +61,9 @@ static err_t read_value(line_t *line, char letter, double value) {
     if (line_has(line, word)) {
         return err_raise(ERR_GCODE_TWICE, "%c", letter);
     }
-    if (word < (word_t)AXIS_COUNT && !stepper_axis_configured((axis_id_t)word)) {
-        return err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", letter);
+    err_t err = word < (word_t)AXIS_COUNT ? stepper_check_axis((axis_id_t)word) : ERR_OK;
+    if (err != ERR_OK) {
+        return err;
     }
     line->words |= WORD_BIT(word);
     line->value[word] = value;

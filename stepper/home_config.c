@@ -8,6 +8,7 @@
 #include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_check.h"
 
 #define SEEK_PART 0.5 // of the axis's speed
 #define SEEK_MAX_MM_MIN 3000.0
@@ -38,7 +39,7 @@ void home_config_reset(void) {
 err_t stepper_home_config(axis_id_t axis, const stepper_home_t *config) {
     err_t err = rules_check(RULES_DO_HOME_SETTING);
     if (err == ERR_OK) {
-        err = machine_check_axis(axis);
+        err = stepper_check_axis(axis);
     }
     if (err == ERR_OK) {
         homes.axes[axis] = (home_t){
@@ -101,7 +102,7 @@ axis_id_t home_config_on_either_end(uint32_t group) {
 
 err_t home_config_check(axis_id_t axis) {
     home_switch_t found;
-    err_t err = machine_check_axis(axis);
+    err_t err = stepper_check_axis(axis);
     if (err == ERR_OK && !home_config_switch(axis, &found)) {
         err = err_raise(ERR_HOME_NO_SWITCH, "%c has no home switch", STEPPER_AXIS_LETTERS[axis]);
     }

@@ -2,7 +2,6 @@
 #include "stepper/machine.h"
 
 #include "stepper/alarm.h"
-#include "stepper/axis.h"
 #include "stepper/cycle.h"
 #include "stepper/governor.h"
 #include "stepper/jog.h"
@@ -71,12 +70,6 @@ void machine_await_end(void) {
     while (is_ending() && hal_time_us() < limit_us) {
         hal_idle(limit_us);
     }
-}
-
-err_t machine_check_axis(axis_id_t axis) {
-    return axes[axis].configured
-               ? ERR_OK
-               : err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
 }
 
 bool machine_estop_asserted(void) {

@@ -58,7 +58,4 @@ void machine_pass_keep_on(void);
 // Controlled stop, and waits until the machine stands.
 void machine_stop_and_wait(void);
 
-// What must be true before a call may do its work; each raises its error.
-err_t machine_check_axis(axis_id_t axis);
-
 #endif

@@ -8,6 +8,7 @@
 #include "stepper/moves.h"
 #include "stepper/planner.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_check.h"
 
 // Planning more blocks than this anew holds the governor off for longer than it is ahead; for a
 // full queue it takes less than this.
@@ -131,7 +132,7 @@ err_t stepper_set_home(void) {
 err_t stepper_set_position(axis_id_t axis, double position) {
     err_t err = rules_check(RULES_DO_PLACE);
     if (err == ERR_OK) {
-        err = machine_check_axis(axis);
+        err = stepper_check_axis(axis);
     }
     if (err != ERR_OK) {
         return err;

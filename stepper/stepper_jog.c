@@ -8,10 +8,11 @@
 #include "stepper/jog.h"
 #include "stepper/machine.h"
 #include "stepper/rules.h"
+#include "stepper/stepper_check.h"
 
 static err_t check(axis_id_t axis) {
     err_t err = rules_check(RULES_DO_JOG);
-    return err == ERR_OK ? machine_check_axis(axis) : err;
+    return err == ERR_OK ? stepper_check_axis(axis) : err;
 }
 
 // As long as a switch of the axis is pressed that does not trip, the way goes off it. Of two on one

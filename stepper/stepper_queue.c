@@ -12,6 +12,12 @@
 
 #define TICKS_PER_MS (HAL_TICK_HZ / 1000.0)
 
+err_t stepper_check_axis(axis_id_t axis) {
+    return axes[axis].configured
+               ? ERR_OK
+               : err_raise(ERR_AXIS_NOT_CONFIGURED, "%c", STEPPER_AXIS_LETTERS[axis]);
+}
+
 // Half a step of tolerance: a limit that is no whole step must not refuse its own value.
 static err_t check_reach(axis_id_t axis, double low, double high) {
     double tolerance = 0.5 / axes[axis].config.steps_per_unit;
@@ -33,7 +39,7 @@ static err_t check_target(const stepper_move_t *move, const double from[AXIS_COU
         double target = move->target[axis];
         steps[axis] = 0;
         if (!axes[axis].configured) {
-            err = target != from[axis] ? machine_check_axis(axis) : ERR_OK;
+            err = target != from[axis] ? stepper_check_axis(axis) : ERR_OK;
             continue;
         }
         if (target != from[axis]) {
@@ -95,7 +101,7 @@ static err_t check_arc_from(const double from[AXIS_COUNT], const stepper_arc_t *
                             int32_t steps[AXIS_COUNT]) {
     err_t err = ERR_OK;
     for (unsigned n = 0; n < 2 && err == ERR_OK; n++) {
-        err = machine_check_axis(wanted->plane[n]);
+        err = stepper_check_axis(wanted->plane[n]);
     }
     if (err == ERR_OK) {
         err = check_target(&wanted->move, from, steps);

@@ -15,6 +15,7 @@
 #include "stepper/rules.h"
 #include "stepper/step_isr.h"
 #include "stepper/stepper_axes.h"
+#include "stepper/stepper_check.h"
 
 static const char estop_owner[] = "STEPPER E-STOP";
 
@@ -135,7 +136,7 @@ err_t stepper_axis(axis_id_t axis, const stepper_axis_t *config) {
 err_t stepper_tune(axis_id_t axis, const stepper_axis_t *config) {
     err_t err = rules_check(RULES_DO_PINS);
     if (err == ERR_OK) {
-        err = machine_check_axis(axis);
+        err = stepper_check_axis(axis);
     }
     if (err != ERR_OK) {
         return err;
@@ -177,7 +178,7 @@ double stepper_step_rate_limit(axis_id_t axis) {
 err_t stepper_limits(axis_id_t axis, double min_mm, double max_mm) {
     err_t err = rules_check(RULES_DO_LIMITS);
     if (err == ERR_OK) {
-        err = machine_check_axis(axis);
+        err = stepper_check_axis(axis);
     }
     if (err != ERR_OK) {
         return err;
