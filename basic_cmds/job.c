@@ -8,7 +8,8 @@
 
 err_t job_file(const basic_arg_t *args, size_t count) {
     (void)count;
-    return gcode_job_start(args[0].text.text, args[0].text.length);
+    err_t err = job_check_free();
+    return err != ERR_OK ? err : gcode_job_start(args[0].text.text, args[0].text.length);
 }
 
 // ---- Check --------------------------------------------------------------------------------------
@@ -83,10 +84,6 @@ err_t job_percent(const basic_arg_t *args, size_t count, basic_value_t *result) 
     return ERR_OK;
 }
 
-err_t job_check_free(void) {
-    return gcode_job_runs() ? err_raise(ERR_JOB_RUNS, NULL) : ERR_OK;
-}
-
 // ---- Background ---------------------------------------------------------------------------------
 
 static void tell_end(void) {
@@ -129,4 +126,16 @@ void job_background(void) {
     } else if (more) {
         basic_wake();
     }
+}
+
+// A file whose end nobody has looked at yet, behind a RECOVER on the same line for instance, is in
+// nobody's way. While one is being stopped the braking is, and the caller finds that by itself.
+err_t job_check_free(void) {
+    job_background();
+    if (!gcode_job_runs()) {
+        return ERR_OK;
+    }
+    stepper_status_t status;
+    stepper_status(&status);
+    return status.stopping ? ERR_OK : err_raise(ERR_JOB_RUNS, NULL);
 }

@@ -32,10 +32,10 @@ gcode_job_state_t gcode_job_state(void) {
 }
 
 err_t gcode_job_start(const char *name, size_t length) {
-    if (gcode_job_runs()) {
-        return err_raise(ERR_JOB_RUNS, NULL);
-    }
     err_t err = rules_check(RULES_DO_FILE);
+    if (err == ERR_OK && gcode_job_runs()) {
+        err = err_raise(ERR_JOB_RUNS, NULL);
+    }
     if (err == ERR_OK && gcode_busy()) {
         err = err_raise(ERR_GCODE_BUFFER_FULL, NULL);
     }
@@ -109,6 +109,14 @@ static err_t feed(void) {
     return err;
 }
 
+// The queue of a stopped file is dropped: what moves once it stands is not the file's.
+static bool all_done(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    return job.result == GCODE_JOB_STOPPED ? !status.stopping
+                                           : !gcode_busy() && stepper_active() <= 0;
+}
+
 err_t gcode_job_background(bool *more) {
     *more = false;
     if (job.phase == PHASE_IDLE) {
@@ -120,7 +128,7 @@ err_t gcode_job_background(bool *more) {
         end_reading(GCODE_JOB_STOPPED);
     }
     err_t err = feed();
-    if (job.phase == PHASE_ENDING && !gcode_busy() && stepper_active() <= 0) {
+    if (job.phase == PHASE_ENDING && all_done()) {
         int percent = gcode_job_percent();
         job.percent = job.result == GCODE_JOB_DONE ? 100 : percent;
         job.phase = PHASE_IDLE;

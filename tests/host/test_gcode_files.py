@@ -134,6 +134,43 @@ def test_a_refused_line_ends_the_file(tmp_path: Path, line: str, error: str) -> 
     assert "Y: 0.000 to 5.000 mm, machine 0.000 to 5.000 mm" in shown
 
 
+@pytest.mark.parametrize("line", ["STEPPER GC G0 X3", 'STEPPER FILE "b.nc"', "STEPPER JOG X, 3"])
+def test_what_comes_behind_recover_on_the_same_line(tmp_path: Path, line: str) -> None:
+    """The file has ended by then, although nothing has looked at it since."""
+    shown = answers(
+        tmp_path,
+        {"a.nc": LONG, "b.nc": "G0 X3\n"},
+        *ARMED,
+        "STEPPER GC G91",
+        'STEPPER FILE "a.nc"',
+        f"STEPPER RECOVER : STEPPER POSITION HOME : STEPPER RUN : {line}",
+        WAIT,
+        "PRINT PEEK(STEPPER X)",
+    )
+    assert not [text for text in shown if "Error" in text]
+    assert shown[-1] == " 3"
+
+
+@pytest.mark.parametrize("line", ["STEPPER GC G0 X3", 'STEPPER FILE "a.nc"', "STEPPER JOG X, 3"])
+def test_what_comes_while_a_file_is_being_stopped(tmp_path: Path, line: str) -> None:
+    """Nobody is told to stop what is stopping; the end is told when all stands."""
+    shown = answers(
+        tmp_path,
+        {"a.nc": LONG.replace("F600", "F6000").replace("X1", "X9")},
+        *ARMED,
+        'STEPPER FILE "a.nc"',
+        "PAUSE 150",
+        f"STEPPER STOP : PRINT 1 : {line}",
+        WAIT,
+        "STEPPER GC G0 X3",
+        WAIT,
+        "PRINT PEEK(STEPPER X)",
+    )
+    stopping = shown.index("Error : Motion is being stopped")
+    assert "G-code file stopped in line 4" in shown[stopping:]
+    assert shown[-1] == " 3"
+
+
 def test_a_file_that_is_stopped_at_once(tmp_path: Path) -> None:
     """None of its lines was reached: there is no line 0."""
     line = 'STEPPER FILE "a.nc" : STEPPER STOP'
