@@ -113,7 +113,7 @@ void stepper_background(void) {
 
 // ---- Moves --------------------------------------------------------------------------------------
 
-void cycle_move(const int32_t target[AXIS_COUNT], double feed, uint32_t pins, uint32_t levels) {
+void cycle_move(const int32_t target[AXIS_COUNT], double feed, const cycle_until_t *until) {
     stepper_move_t move = {
         .feed = feed * 100.0 / machine.feed_override,
         .corner = STEPPER_CORNER_STOP,
@@ -121,9 +121,15 @@ void cycle_move(const int32_t target[AXIS_COUNT], double feed, uint32_t pins, ui
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         move.target[axis] = axis_from_steps(axis, target[axis]);
     }
-    if (pins != 0) {
+    if (until != NULL) {
+        const step_isr_latch_t latch = {
+            .pins = until->pins,
+            .levels = until->levels,
+            .halts = until->halts,
+            .samples = limits_latch_samples(),
+        };
         hal_governor_lock();
-        step_isr_latch_arm(pins, levels, limits_latch_samples());
+        step_isr_latch_arm(&latch);
         hal_governor_unlock();
     }
     moves_push_line(&move, target);

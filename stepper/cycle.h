@@ -38,9 +38,14 @@ void cycle_forget(void);
 
 // ---- Moves of a cycle; the machine is at rest ---------------------------------------------------
 
-// A line to `target` steps, at `feed` units/min whatever the override says. With `pins` it ends, by
-// braking, as soon as one of them has its level of `levels`.
-void cycle_move(const int32_t target[AXIS_COUNT], double feed, uint32_t pins, uint32_t levels);
+// What ends a move of a cycle early: one of `pins` has its level of `levels`. Motion is braked
+// then, or ends at once if it is one of `halts`. Masks of pins.
+typedef struct {
+    uint32_t pins, levels, halts;
+} cycle_until_t;
+
+// A line to `target` steps, at `feed` units/min whatever the override says. `until` may be NULL.
+void cycle_move(const int32_t target[AXIS_COUNT], double feed, const cycle_until_t *until);
 
 // Behind such a move: the pins that ended it, and where the motors were then. 0: none did.
 uint32_t cycle_moved(int32_t steps[AXIS_COUNT]);

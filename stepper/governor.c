@@ -28,6 +28,7 @@ static struct {
     governor_pins_t pins;
     volatile bool armed;
     volatile bool stopping;
+    bool holdable;         // it stops for a latch: what comes behind it can be held
     volatile bool holding; // feed hold: brake to a standstill and wait there
     volatile bool paused;  // the front block holds
     volatile uint32_t pauses;
@@ -229,6 +230,16 @@ void governor_fill(uint32_t ticks) {
 
 // ---- Inputs -------------------------------------------------------------------------------------
 
+// The tick is stopped: the machine stands where that was, and nothing is ahead of it or queued.
+static void drop_motion(void) {
+    int32_t steps[AXIS_COUNT];
+    governor_position(steps); // before the ring is emptied
+    step_isr_abort();
+    jog_drop();
+    drop_blocks();
+    governor_set_position(steps);
+}
+
 // Several at once: the drivers stay on only if each of them says so.
 static void trip(uint32_t pins) {
     bool moved = governor_emergency_stop((pins & ~governor.pins.keep_enabled) == 0);
@@ -237,14 +248,35 @@ static void trip(uint32_t pins) {
     step_isr_rearm();
 }
 
-// The position first: what is written from now on may take the place of what it follows from.
+// The position first: what is written from now on may take the place of what it follows from. A
+// hold stays: it is the user's.
 static void latch(void) {
+    bool holding = governor.holding;
     if (!step_isr_latch_collect()) {
         int32_t steps[AXIS_COUNT];
         segment_writer_end_steps(steps);
         step_isr_latch_stand(steps);
     }
-    governor_stop();
+    if (!step_isr_stopped()) {
+        governor_stop();
+        governor.holding = holding;
+        governor.holdable = true;
+    }
+}
+
+static void watch_inputs(void) {
+    if (governor.armed && step_isr_watches()) {
+        hal_tick_start();
+    }
+}
+
+// A latch has stopped the tick: the machine stands there and goes on being watched. The drivers are
+// on, or were to be: what turns them on may have been ahead.
+static void halt(void) {
+    step_isr_halt();
+    drop_motion();
+    governor.drivers_on = false;
+    watch_inputs();
 }
 
 void hal_on_governor(void) {
@@ -254,6 +286,9 @@ void hal_on_governor(void) {
     }
     if (step_isr_latch_waits()) {
         latch();
+    }
+    if (step_isr_stopped()) {
+        halt();
     }
     governor_fill(SPARE_TICKS);
 }
@@ -283,9 +318,7 @@ void governor_keep_enabled(uint32_t pins) {
 void governor_arm(bool idle_off) {
     governor.idle_off = idle_off;
     governor.armed = true;
-    if (step_isr_watches()) {
-        hal_tick_start();
-    }
+    watch_inputs();
 }
 
 void governor_disarm(void) {
@@ -300,6 +333,7 @@ void governor_set_position(const int32_t steps[AXIS_COUNT]) {
 
 void governor_stop(void) {
     governor.holding = false;
+    governor.holdable = false;
     if (jog_active()) {
         jog_stop();
     } else {
@@ -309,17 +343,12 @@ void governor_stop(void) {
 }
 
 bool governor_emergency_stop(bool keep_enabled) {
-    int32_t steps[AXIS_COUNT];
     bool moved = step_isr_halt();
     outputs_off();
     if (!keep_enabled) {
         hal_pins_set(governor.pins.enable);
     }
-    governor_position(steps); // before the ring is emptied
-    step_isr_abort();
-    jog_drop();
-    drop_blocks();
-    governor_set_position(steps);
+    drop_motion();
     governor.drivers_on = false;
     governor.armed = false;
     governor.holding = false;
@@ -348,7 +377,8 @@ void governor_hold(bool hold) {
     if (hold) {
         jog_stop();
     }
-    governor.holding = hold && !governor.stopping && !jog_active();
+    bool stopping = governor.stopping && !governor.holdable;
+    governor.holding = hold && !stopping && !jog_active();
     travel_choose_again();
 }
 

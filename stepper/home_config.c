@@ -113,6 +113,11 @@ bool home_config_latch_is_set(axis_id_t axis) {
     return homes.axes[axis].latch >= 0.0f;
 }
 
+bool home_config_halts(axis_id_t axis) {
+    float latch = homes.axes[axis].latch;
+    return latch == 0.0f || (latch < 0.0f && home_config_switch_of(axis).high);
+}
+
 uint32_t home_config_all(void) {
     uint32_t all = 0;
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
@@ -165,13 +170,11 @@ void stepper_home_groups(uint8_t groups[STEPPER_HOME_AXES]) {
     memcpy(groups, homes.groups, sizeof homes.groups);
 }
 
-// An axis without a second approach gets its position from the first one, in which the axes of a
-// group would disturb each other: it is homed alone.
+// An axis that does not brake would throw the others of its group out of step, and gets its
+// position from an approach in which they would disturb it: it is homed alone.
 static uint32_t alone_if_it_must(uint32_t group) {
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
-        stepper_home_t settings;
-        stepper_home_settings(axis, &settings);
-        if (((group >> axis) & 1) && settings.latch <= 0.0) {
+        if (((group >> axis) & 1) && home_config_halts(axis)) {
             return 1u << axis;
         }
     }

@@ -145,12 +145,13 @@ static void search(void) {
     }
     int32_t target[AXIS_COUNT];
     machine_motor_steps(target);
-    uint32_t pins = 0;
-    uint32_t levels = 0;
+    cycle_until_t until = {0};
     FOR_AXES(axis, moving) {
         home_switch_t found = home_config_switch_of(axis);
-        pins |= found.pin;
-        levels |= found.high == row->towards ? found.pin : 0;
+        bool halts = homing.phase == PHASE_APPROACH && home_config_halts(axis);
+        until.pins |= found.pin;
+        until.levels |= found.high == row->towards ? found.pin : 0;
+        until.halts |= halts ? found.pin : 0;
         homing.start[axis] = target[axis];
         double way = direction(axis) * (row->towards ? feed[axis] : -feed[axis]) * minutes;
         if (!axis_to_steps(axis, axis_from_steps(axis, target[axis]) + way, &target[axis])) {
@@ -158,7 +159,7 @@ static void search(void) {
             return;
         }
     }
-    cycle_move(target, sqrt(square), pins, levels);
+    cycle_move(target, sqrt(square), &until);
 }
 
 // To the place that is pull_off away from the switch.
@@ -176,7 +177,7 @@ static void leave(void) {
         }
         feed = fmin(feed, home.seek);
     }
-    cycle_move(target, feed, 0, 0);
+    cycle_move(target, feed, NULL);
 }
 
 // ---- The ends of moves --------------------------------------------------------------------------

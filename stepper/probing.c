@@ -112,7 +112,11 @@ static void begin(void) {
     }
     uint32_t pin = pins_mask(probing.gpio);
     probing.moved = true;
-    cycle_move(probing.steps, (double)probing.feed, pin, probing.away == probing.invert ? 0 : pin);
+    const cycle_until_t until = {
+        .pins = pin,
+        .levels = probing.away == probing.invert ? 0 : pin,
+    };
+    cycle_move(probing.steps, (double)probing.feed, &until);
 }
 
 void probing_advance(void) {

@@ -46,9 +46,10 @@ static struct {
     step_isr_inputs_t inputs;              // what trip.pins are
     uint32_t step_pins[STEP_COMBINATIONS]; // bit 3: X ... bit 0: A, as the carries are gathered
     volatile uint32_t dry_count;
+    volatile bool stopped;     // by an input: the tick makes no step until step_isr_abort()
     volatile uint32_t tripped; // the inputs that did it, 0: none
 
-    uint32_t latch_levels;
+    step_isr_latch_t to_latch;           // what latch.pins are
     volatile uint32_t latch_fired;       // the inputs that did it, 0: none
     segment_t *volatile latched_segment; // where the motors were: NULL, between two motions
     volatile uint32_t latched_left;
@@ -60,11 +61,24 @@ static struct {
 
 #define RARE(name) __attribute__((noinline)) HAL_RAM_FUNC(name)
 
-static void RARE(trip)(uint32_t pins) {
-    isr.tripped = pins;
+// Should somebody start the tick again before the governor has come, it looks closely, finds the
+// pin that there is not, and stops.
+static inline void keep_stopped(void) {
+    isr.inputs.immediate |= SUSPICION;
+    isr.quiet = isr.quiet | SUSPICION;
+}
+
+static void RARE(stop)(void) {
+    isr.stopped = true;
+    keep_stopped();
     isr.raised = 0;
     hal_tick_stop();
     hal_governor_request();
+}
+
+static void RARE(trip)(uint32_t pins) {
+    isr.tripped = isr.tripped | (pins & ~SUSPICION);
+    stop();
 }
 
 // The suspects have been there for the fewest samples that any input wants. True: the machine is
@@ -95,12 +109,12 @@ static inline bool go_on(filter_t *filter, uint32_t unusual) {
     return same;
 }
 
-// Behind the trip's filter, which has had its say about SUSPICION.
-static void RARE(look_for_latch)(uint32_t unusual) {
+// Behind the trip's filter, which has had its say about SUSPICION. True: the machine is stopped.
+static bool RARE(look_for_latch)(uint32_t unusual) {
     bool same = go_on(&isr.latch, unusual);
     uint32_t suspects = isr.latch.suspects;
     if (suspects == 0) {
-        return;
+        return false;
     }
     if (!same) {
         isr.latched_segment = isr.current;
@@ -111,10 +125,15 @@ static void RARE(look_for_latch)(uint32_t unusual) {
         isr.latch.pins = 0;
         isr.latch.suspects = 0;
         isr.latch_fired = suspects;
+        if ((suspects & isr.to_latch.halts) != 0) {
+            stop();
+            return true;
+        }
         hal_governor_request();
     } else {
         isr.quiet = isr.quiet | SUSPICION;
     }
+    return false;
 }
 
 // Some inputs are not as they are while nothing is to be done. True: the machine is stopped.
@@ -132,10 +151,7 @@ static inline bool inspect(uint32_t unusual) {
         uint32_t quiet = isr.quiet & ~SUSPICION;
         isr.quiet = isr.trip.suspects != 0 ? quiet | SUSPICION : quiet;
     }
-    if (isr.latch.pins != 0) {
-        look_for_latch(unusual);
-    }
-    return false;
+    return isr.latch.pins != 0 && look_for_latch(unusual);
 }
 
 // ---- The tick -----------------------------------------------------------------------------------
@@ -208,6 +224,7 @@ void step_isr_setup(void) {
     isr.watched = SUSPICION;
     isr.quiet = 0;
     isr.latch_fired = 0;
+    isr.stopped = false;
     isr.tripped = 0;
     isr.current = NULL;
     isr.ticks_left = 0;
@@ -218,7 +235,8 @@ void step_isr_setup(void) {
 
 // In this order the tick may come between any two of these lines: a pin that stays in goes on being
 // watched, one that is new has its level first, and a count that is under way begins anew. Should a
-// latch leave its note meanwhile, its pins must not come back.
+// latch leave its note meanwhile, its pins must not come back; should the tick stop itself, it has
+// to stay so.
 static void watch(void) {
     uint32_t latch;
     do {
@@ -228,10 +246,13 @@ static void watch(void) {
         isr.watched = isr.watched & watched;
         isr.trip.pins = trips;
         RING_BARRIER();
-        isr.quiet = (~isr.inputs.levels & trips) | (~isr.latch_levels & latch);
+        isr.quiet = (~isr.inputs.levels & trips) | (~isr.to_latch.levels & latch);
         isr.watched = watched;
         RING_BARRIER();
         isr.trip.suspects = 0;
+        if (isr.stopped) {
+            keep_stopped();
+        }
     } while (latch != isr.latch.pins);
 }
 
@@ -246,6 +267,7 @@ void step_isr_watch(const step_isr_inputs_t *inputs) {
     isr.watched = isr.watched & (inputs->estop | isr.latch.pins | SUSPICION);
     RING_BARRIER();
     isr.inputs = with_immediate;
+    RING_BARRIER();
     isr.trip.samples = (int32_t)fewest;
     watch();
 }
@@ -285,6 +307,12 @@ static void position_in(const segment_t *segment, uint32_t left, uint32_t wanted
     }
 }
 
+static void beginning_of(const segment_t *segment, int32_t steps[AXIS_COUNT]) {
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        steps[axis] = segment->axes[axis].start_steps;
+    }
+}
+
 bool step_isr_position(int32_t steps[AXIS_COUNT]) {
     for (;;) {
         const segment_t *segment = isr.current;
@@ -295,10 +323,7 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
         if (segment != NULL) {
             position_in(segment, left, left, steps);
         } else if (waiting) { // the first tick is still to come
-            const segment_t *first = &segments.slots[segments.ring.take_slot];
-            for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-                steps[axis] = first->axes[axis].start_steps;
-            }
+            beginning_of(&segments.slots[segments.ring.take_slot], steps);
         }
         RING_BARRIER();
         if (segment == isr.current && left == isr.ticks_left && taken == segments.ring.read) {
@@ -309,12 +334,12 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
 
 // ---- Latch --------------------------------------------------------------------------------------
 
-void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples) {
+void step_isr_latch_arm(const step_isr_latch_t *latch) {
     step_isr_latch_disarm();
-    isr.latch_levels = levels;
-    isr.latch.samples = (int32_t)samples;
+    isr.to_latch = *latch;
+    isr.latch.samples = (int32_t)latch->samples;
     isr.latch.suspects = 0;
-    isr.latch.pins = pins;
+    isr.latch.pins = latch->pins;
     watch();
     hal_tick_start();
 }
@@ -339,31 +364,38 @@ bool step_isr_latch_waits(void) {
     return isr.latch_fired != 0 && !isr.latch_collected;
 }
 
+// Between two motions: where the next one begins, which may be under way.
+static bool collect_at_rest(void) {
+    bool known = ring_used(&segments.ring) > 0;
+    if (known) {
+        beginning_of(&segments.slots[segments.ring.take_slot], isr.latched_steps);
+    }
+    return known;
+}
+
 // As long as it was in the segment of the first sample; the slot is untouched until now
-// (step_isr_latch_reserve). Between two motions: where the next one begins, which may be under way.
-bool step_isr_latch_collect(void) {
-    if (!step_isr_latch_waits()) {
-        return true;
-    }
-    bool known = true;
-    const segment_t *segment = isr.latched_segment;
-    if (segment == NULL) {
-        segment = isr.current;
-        known = segment != NULL;
-        isr.latched_left = known ? segment->ticks : 0;
-    }
+// (step_isr_latch_reserve).
+static void collect_in(const segment_t *segment) {
     uint32_t left;
-    while (known) {
+    do {
         left = segment == isr.current ? isr.ticks_left : 0;
         RING_BARRIER();
         position_in(segment, left, isr.latched_left, isr.latched_steps);
         RING_BARRIER();
-        if (left == (segment == isr.current ? isr.ticks_left : 0)) {
-            break;
-        }
+    } while (left != (segment == isr.current ? isr.ticks_left : 0));
+}
+
+bool step_isr_latch_collect(void) {
+    if (!step_isr_latch_waits()) {
+        return true;
     }
-    isr.latch_collected = known;
-    return known;
+    isr.latch_collected = true;
+    if (isr.latched_segment != NULL) {
+        collect_in(isr.latched_segment);
+    } else {
+        isr.latch_collected = collect_at_rest();
+    }
+    return isr.latch_collected;
 }
 
 void step_isr_latch_stand(const int32_t steps[AXIS_COUNT]) {
@@ -395,10 +427,16 @@ void step_isr_abort(void) {
     isr.current = NULL;
     isr.ticks_left = 0;
     ring_reset(&segments.ring, SEGMENTS);
+    isr.stopped = false;
+    isr.inputs.immediate &= ~SUSPICION;
 }
 
 uint32_t step_isr_tripped(void) {
     return isr.tripped;
+}
+
+bool step_isr_stopped(void) {
+    return isr.stopped;
 }
 
 void step_isr_rearm(void) {

@@ -3,8 +3,9 @@
 //
 // There are two kinds of inputs. One of those that trip stops the machine: no step from the sample
 // on, the tick has stopped itself, the governor is called. One of those that latch leaves a note of
-// where the motors were and calls the governor, which brakes. A level counts when it was there for
-// so many samples, 10 us apart, in a row.
+// where the motors were and calls the governor, which brakes; or, if that is wanted, there is no
+// step from the sample on either, and the machine stands there, armed. A level counts when it was
+// there for so many samples, 10 us apart, in a row.
 #ifndef STEPPER_STEP_ISR_H
 #define STEPPER_STEP_ISR_H
 
@@ -47,6 +48,10 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]);
 uint32_t step_isr_tripped(void);
 void step_isr_rearm(void);
 
+// An input has stopped the tick, one that trips or one that latches. However often it is started,
+// it makes no step until step_isr_abort(). Any context.
+bool step_isr_stopped(void);
+
 // There are inputs to watch. Any context.
 bool step_isr_watches(void);
 
@@ -54,12 +59,19 @@ bool step_isr_watches(void);
 
 #define STEP_ISR_LATCH_SAMPLES_MAX 16u
 
-// From now on the first pin of `pins` that has its bit of `levels` for
-// 1..STEP_ISR_LATCH_SAMPLES_MAX `samples` leaves a note; one that has it already does so at once.
-// Motion is braked then and the queue dropped, as by a controlled stop. Pins that also trip do
-// trip: take them out first (step_isr_watch). Forgets an earlier note. Context: main with the
-// governor locked.
-void step_isr_latch_arm(uint32_t pins, uint32_t levels, uint32_t samples);
+// Masks of pins.
+typedef struct {
+    uint32_t pins;
+    uint32_t levels;  // bit of a pin set: high is what it waits for
+    uint32_t halts;   // those of the pins that end motion without braking
+    uint32_t samples; // 1..STEP_ISR_LATCH_SAMPLES_MAX
+} step_isr_latch_t;
+
+// From now on the first of the pins that has its level leaves a note; one that has it already does
+// so at once. Motion is braked then, or halted, and the queue dropped, as by a controlled stop.
+// Pins that also trip do trip: take them out first (step_isr_watch). Forgets an earlier note.
+// Context: main with the governor locked.
+void step_isr_latch_arm(const step_isr_latch_t *latch);
 
 // No longer. Context: main with the governor locked.
 void step_isr_latch_disarm(void);

@@ -35,7 +35,8 @@ typedef struct {
     double seek;            // mm/min; half the axis's speed, at most 3000
     // mm/min, 0: no second approach. STEPPER_HOME_LATCH: a tenth of seek, 60 at least, and none if
     // the switch is active high and opens by itself when the axis stands: then it is a driver's
-    // stall output.
+    // stall output. With 0, or with STEPPER_HOME_LATCH at an input that is active high, the first
+    // approach ends without braking, and the axis is homed alone.
     double latch;
     double pull_off_mm;   // home_backoff_mm of the axis
     double max_travel_mm; // 1.5 times what the soft limits span, or 1000 without any

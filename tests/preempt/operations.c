@@ -364,12 +364,22 @@ static void do_probe(void) {
     follow_machine();
 }
 
+static void do_home(void) {
+    operations_resume();
+    operations_arm();
+    wait_for_rest();
+    probes_home_one();
+    wait_for_rest();
+    stand_at_home();
+    follow_machine();
+}
+
 static void let_time_pass(void) {
     wait_us(fuzz_random_below(fuzz_random_percent(70) ? 3000 : 40000));
 }
 
 void operations_do_one(void) {
-    switch (fuzz_random_below(model.calm ? 14 : 22)) {
+    switch (fuzz_random_below(model.calm ? 14 : 23)) {
     case 0:
         if (model.curved) {
             do_curve();
@@ -420,6 +430,9 @@ void operations_do_one(void) {
     case 17:
     case 18:
         do_probe();
+        break;
+    case 19:
+        do_home();
         break;
     default:
         operations_resume();

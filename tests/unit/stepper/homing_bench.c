@@ -62,11 +62,18 @@ void homing_bench_put(axis_id_t axis, int64_t steps) {
     assign(true);
 }
 
+static bool curved;
+
+void homing_bench_scurve(bool on) {
+    curved = on;
+}
+
 void homing_bench_start(bool known) {
     for (unsigned i = 0; i < SWITCH_COUNT; i++) {
         homing_switches[i].fault = SIMULATE_FAULT_NONE;
     }
     bench_start();
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_scurve(curved));
     attach_once();
     homing_bench_put(AXIS_X, START_STEPS);
     homing_bench_put(AXIS_Y, START_STEPS);

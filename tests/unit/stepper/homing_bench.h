@@ -15,6 +15,9 @@ enum { SWITCH_X_MIN, SWITCH_X_MAX, SWITCH_Y_MIN, SWITCH_Z_MAX, SWITCH_PROBE, SWI
 // of the motors; the probe is a plate that X touches from 0 on downwards. All but the probe bounce.
 extern simulate_switch_t homing_switches[SWITCH_COUNT];
 
+// Every machine from now on has it.
+void homing_bench_scurve(bool on);
+
 // A fresh machine, armed, with the motors 4000 steps on the free side of the switches; all four
 // axes' limits assigned. The position counts as unknown if `known` is false.
 void homing_bench_start(bool known);

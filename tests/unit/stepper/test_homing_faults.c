@@ -331,127 +331,26 @@ static void test_close_in_every_phase_leaves_nothing_behind(void) {
     }
 }
 
-// ---- Without a switch ---------------------------------------------------------------------------
-
-static simulate_switch_t diag = {.axis = &bench.motors[AXIS_X],
-                                 .gpio = 22,
-                                 .from_steps = INT32_MIN,
-                                 .to_steps = 0,
-                                 .pressed_level = true,
-                                 .stall_rate_hz = 1000,
-                                 .hold_us = 300};
-
-static struct {
-    unsigned on, off;
-    uint32_t axes;
-} hook;
-
-static void arm_driver(uint32_t axes, bool on) {
-    hook.on += on;
-    hook.off += !on;
-    hook.axes = axes;
-}
-
-// X runs against its end; the driver's output is active high, only at speed, and pulses.
-static void begin_sensorless(double latch) {
-    static bool attached;
-    homing_bench_start(false);
-    attached = attached || simulate_switch_attach(&diag);
-    bench.motors[AXIS_X].has_stops = true;
-    bench.motors[AXIS_X].stop_low_steps = -4;
-    bench.motors[AXIS_X].stop_high_steps = 30000;
-    stepper_hwlimits_t switches = {.active_high = 1};
-    memset(switches.gpio, PINS_NONE, sizeof switches.gpio);
-    switches.gpio[STEPPER_X_MIN] = 22;
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_hwlimits(&switches));
-    stepper_home_t wanted = {.seek = 1500.0, .latch = latch, .max_travel_mm = 100.0};
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &wanted));
-    memset(&hook, 0, sizeof hook);
-    stepper_homing_set_hook(arm_driver);
-}
-
-static void test_sensorless_homing_takes_the_first_approach(void) {
-    for (unsigned round = 0; round < 20; round++) {
-        begin_sensorless(0.0);
-        bench.motors[AXIS_X].position_steps = 1000 + 337 * (int64_t)round;
-        TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
-        TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
-        TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
-        // The stall is noticed at 0; four steps later the end swallows those of the braking, 25
-        // mm/s at 500 mm/s^2: 0.625 mm, 50 steps, and what was computed ahead.
-        int64_t lost = bench.motors[AXIS_X].position_steps - PULL_OFF_X;
-        TEST_ASSERT_INT64_WITHIN(6, 52, lost);
-        TEST_ASSERT_EQUAL_UINT32(1, hook.on);
-        TEST_ASSERT_EQUAL_UINT32(1, hook.off);
-        TEST_ASSERT_EQUAL_UINT32(1u << AXIS_X, hook.axes);
-        stepper_homing_set_hook(NULL);
-        bench_end();
-    }
-}
-
-// As the reference has it: nothing is configured but the input, active high.
-static void test_sensorless_homing_needs_no_setting(void) {
-    begin_sensorless(0.0);
-    const stepper_home_t nothing = {.latch = STEPPER_HOME_LATCH};
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_home_config(AXIS_X, &nothing));
-    bench.motors[AXIS_X].position_steps = 3000;
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
-    TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
-    TEST_ASSERT_EQUAL_INT32(0, stepper_position_steps(AXIS_X));
-    TEST_ASSERT_INT64_WITHIN(20, PULL_OFF_X + 200, bench.motors[AXIS_X].position_steps);
-    TEST_ASSERT_EQUAL_UINT32(1, hook.on);
-    stepper_homing_set_hook(NULL);
-    bench_end();
-}
-
-// Below its speed the driver notices nothing: with a slow approach that is a failure, not a wrong
-// home position.
-static void test_sensorless_homing_fails_with_a_slow_approach(void) {
-    begin_sensorless(60.0);
-    bench.motors[AXIS_X].position_steps = 3000;
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
-    TEST_ASSERT_EQUAL(ERR_HOMING_FAILED, homing_bench_finish(30));
-    TEST_ASSERT_NOT_NULL(strstr(err_message(), "while approaching slowly"));
-    TEST_ASSERT_EQUAL_UINT32(2, hook.on);
-    TEST_ASSERT_EQUAL_UINT32(2, hook.off);
-    stepper_homing_set_hook(NULL);
-    bench_end();
-}
-
-static void test_the_driver_is_disarmed_after_a_stop(void) {
-    begin_sensorless(0.0);
-    bench.motors[AXIS_X].position_steps = 3000;
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
-    homing_bench_reach(AXIS_X, "approaching the switch", 50000);
-    TEST_ASSERT_EQUAL_UINT32(1, hook.on);
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_estop());
-    TEST_ASSERT_EQUAL(ERR_HOMING_FAILED, homing_bench_finish(5));
-    TEST_ASSERT_EQUAL_UINT32(1, hook.off);
-    stepper_homing_set_hook(NULL);
-    bench_end();
-}
-
 int main(void) {
     UNITY_BEGIN();
-    RUN_TEST(test_a_switch_that_never_closes);
-    RUN_TEST(test_a_switch_that_is_stuck_from_the_start);
-    RUN_TEST(test_a_switch_that_sticks_in_the_first_approach);
-    RUN_TEST(test_a_switch_that_breaks_before_the_second_approach);
-    RUN_TEST(test_a_switch_that_sticks_in_the_second_approach);
-    RUN_TEST(test_an_axis_too_far_from_zero);
-    RUN_TEST(test_a_switch_for_both_ends);
-    RUN_TEST(test_of_a_group_the_axis_that_failed_is_named);
-    RUN_TEST(test_a_disturbance_is_no_home_position);
-    RUN_TEST(test_a_pulse_shorter_than_the_filter_is_nothing);
-    RUN_TEST(test_a_stop_brakes_and_ends_it);
-    RUN_TEST(test_an_emergency_stop_ends_it_at_once);
-    RUN_TEST(test_the_estop_input_ends_it_at_the_next_tick);
-    RUN_TEST(test_another_limit_switch_trips);
-    RUN_TEST(test_a_feed_hold_waits_and_goes_on);
-    RUN_TEST(test_close_in_every_phase_leaves_nothing_behind);
-    RUN_TEST(test_sensorless_homing_takes_the_first_approach);
-    RUN_TEST(test_sensorless_homing_needs_no_setting);
-    RUN_TEST(test_sensorless_homing_fails_with_a_slow_approach);
-    RUN_TEST(test_the_driver_is_disarmed_after_a_stop);
+    for (unsigned curved = 0; curved < 2; curved++) {
+        homing_bench_scurve(curved != 0);
+        RUN_TEST(test_a_switch_that_never_closes);
+        RUN_TEST(test_a_switch_that_is_stuck_from_the_start);
+        RUN_TEST(test_a_switch_that_sticks_in_the_first_approach);
+        RUN_TEST(test_a_switch_that_breaks_before_the_second_approach);
+        RUN_TEST(test_a_switch_that_sticks_in_the_second_approach);
+        RUN_TEST(test_an_axis_too_far_from_zero);
+        RUN_TEST(test_a_switch_for_both_ends);
+        RUN_TEST(test_of_a_group_the_axis_that_failed_is_named);
+        RUN_TEST(test_a_disturbance_is_no_home_position);
+        RUN_TEST(test_a_pulse_shorter_than_the_filter_is_nothing);
+        RUN_TEST(test_a_stop_brakes_and_ends_it);
+        RUN_TEST(test_an_emergency_stop_ends_it_at_once);
+        RUN_TEST(test_the_estop_input_ends_it_at_the_next_tick);
+        RUN_TEST(test_another_limit_switch_trips);
+        RUN_TEST(test_a_feed_hold_waits_and_goes_on);
+        RUN_TEST(test_close_in_every_phase_leaves_nothing_behind);
+    }
     return UNITY_END();
 }

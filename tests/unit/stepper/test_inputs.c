@@ -149,9 +149,9 @@ static void queue_way(void) {
     bench_move(0.4, -0.1, 0, 0, 6000);
 }
 
-static void arm(uint32_t samples) {
+static void arm(uint32_t samples, uint32_t halts) {
     hal_governor_lock();
-    step_isr_latch_arm(PROBE, 0, samples);
+    step_isr_latch_arm(&(step_isr_latch_t){.pins = PROBE, .samples = samples, .halts = halts});
     hal_governor_unlock();
 }
 
@@ -168,7 +168,7 @@ static void check_latch_at(unsigned tick, uint32_t samples) {
     bench_start();
     hal_pin_input(PROBE_GPIO, HAL_PULL_UP);
     queue_way();
-    arm(samples);
+    arm(samples, 0);
     go_between_ticks();
     if (tick > samples) {
         bench_wait_us((tick - samples) * TICK_US);
@@ -223,7 +223,7 @@ static void test_a_latch_at_rest(void) {
     bench_move(1, 2, 0, 0, 6000);
     bench_finish(1);
     bench_wait_us(3000);
-    arm(3);
+    arm(3, 0);
     bench_wait_us(100);
     host_pads_drive(PROBE_GPIO, false);
     bench_wait_us(100);
@@ -232,12 +232,131 @@ static void test_a_latch_at_rest(void) {
     TEST_ASSERT_EQUAL_INT32(80, steps[AXIS_X]);
     TEST_ASSERT_EQUAL_INT32(160, steps[AXIS_Y]);
     // Armed again with the contact made: at once.
-    arm(3);
+    arm(3, 0);
     TEST_ASSERT_FALSE(latched(steps));
     bench_wait_us(50);
     TEST_ASSERT_TRUE(latched(steps));
     host_pads_drive(PROBE_GPIO, true);
     bench_end();
+}
+
+// ---- Halt ---------------------------------------------------------------------------------------
+
+static void take_motors(int32_t steps[AXIS_COUNT]) {
+    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
+        steps[axis] = (int32_t)bench.motors[axis].position_steps;
+    }
+}
+
+static bool driver_on(void) {
+    return (hal_pins_read() & pins_mask(bench_axes[AXIS_X].enable_gpio)) == 0;
+}
+
+// Armed, at rest where the pins say, drivers on; and a move goes on from there.
+static void check_standing(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    TEST_ASSERT_TRUE(status.armed);
+    TEST_ASSERT_FALSE(status.moving);
+    TEST_ASSERT_EQUAL(STEPPER_ALARM_NONE, stepper_alarm());
+    TEST_ASSERT_TRUE(driver_on());
+    TEST_ASSERT_TRUE(hal_tick_running()); // E-STOP is watched
+    TEST_ASSERT_EQUAL_UINT32(STEPPER_BLOCKS_DEFAULT, stepper_blocks_free());
+    bench_check_positions();
+    const int64_t x = bench.motors[AXIS_X].position_steps;
+    double here[AXIS_COUNT];
+    stepper_target(here);
+    bench_move(here[0] + 1, here[1], here[2], here[3], 6000);
+    bench_finish(1);
+    TEST_ASSERT_EQUAL_INT64(x + 80, bench.motors[AXIS_X].position_steps);
+    bench_check_positions();
+}
+
+// With `locked` the main loop holds the governor off, as it does for microseconds, and does what
+// starts the tick: no step comes of it.
+static void check_halt_at(unsigned tick, uint32_t samples, bool locked) {
+    bench_start();
+    hal_pin_input(PROBE_GPIO, HAL_PULL_UP);
+    queue_way();
+    arm(samples, PROBE);
+    go_between_ticks();
+    bench_wait_us(tick * TICK_US);
+    int32_t expected[AXIS_COUNT], steps[AXIS_COUNT];
+    take_motors(expected);
+    host_pads_drive(PROBE_GPIO, false);
+    if (locked) {
+        hal_governor_lock();
+    }
+    uint64_t last_ns = host_clock_now_ns() + samples * TICK_US * 1000u - 5000;
+    bench_wait_us(samples * TICK_US);
+    if (locked) {
+        TEST_ASSERT_FALSE(hal_tick_running());
+        host_pads_drive(PROBE_GPIO, true);
+        hal_tick_start();
+        bench_wait_us(50);
+        TEST_ASSERT_FALSE(hal_tick_running());
+        hal_governor_unlock();
+    }
+    TEST_ASSERT_TRUE(latched(steps));
+    TEST_ASSERT_EQUAL_INT32_ARRAY(expected, steps, AXIS_COUNT);
+    bench_wait_us(3000);
+    TEST_ASSERT_LESS_THAN_UINT64(last_ns, bench.last_step_ns); // none in the last sample
+    check_standing();
+    hal_governor_lock();
+    step_isr_latch_disarm();
+    hal_governor_unlock();
+    host_pads_drive(PROBE_GPIO, true);
+    bench_end();
+}
+
+static void test_a_latch_that_halts_at_every_tick(void) {
+    for (unsigned tick = 0; tick < 3300; tick += EVERY_TICKS) {
+        check_halt_at(tick, 1 + tick % 5, tick % 3 == 0);
+    }
+}
+
+static void test_a_latch_that_halts_at_rest(void) {
+    for (unsigned samples = 1; samples < 4; samples++) {
+        bench_start();
+        hal_pin_input(PROBE_GPIO, HAL_PULL_UP);
+        bench_move(1, 2, 0, 0, 6000);
+        bench_finish(1);
+        host_pads_drive(PROBE_GPIO, false);
+        arm(samples, PROBE);
+        bench_move(3, 2, 0, 0, 6000); // its first segments are there before the tick
+        bench_wait_us(5000);
+        int32_t steps[AXIS_COUNT];
+        TEST_ASSERT_TRUE(latched(steps));
+        TEST_ASSERT_EQUAL_INT32(80, steps[AXIS_X]);
+        TEST_ASSERT_EQUAL_INT32(160, steps[AXIS_Y]);
+        TEST_ASSERT_EQUAL_INT64(80, bench.motors[AXIS_X].position_steps);
+        check_standing();
+        host_pads_drive(PROBE_GPIO, true);
+        bench_end();
+    }
+}
+
+// A limit switch that has opened again before the governor could come.
+static void test_a_trip_lasts_though_the_tick_is_started(void) {
+    for (unsigned after_us = 0; after_us < 20000; after_us += 1300) {
+        start_with_limits();
+        bench_move(500, 0, 0, 0, 6000);
+        bench_wait_us(100000 + after_us);
+        go_between_ticks();
+        hal_governor_lock();
+        pulse(LIMIT_GPIO, 3);
+        TEST_ASSERT_FALSE(hal_tick_running());
+        const uint64_t last_ns = bench.last_step_ns;
+        hal_tick_start();
+        bench_wait_us(400);
+        TEST_ASSERT_EQUAL_UINT64(last_ns, bench.last_step_ns);
+        hal_governor_unlock();
+        bench_wait_us(3000);
+        TEST_ASSERT_EQUAL_UINT64(last_ns, bench.last_step_ns);
+        TEST_ASSERT_EQUAL(STEPPER_ALARM_LIMIT, stepper_alarm());
+        bench_check_positions();
+        bench_end();
+    }
 }
 
 int main(void) {
@@ -249,5 +368,8 @@ int main(void) {
     RUN_TEST(test_a_latch_keeps_the_position_of_its_first_sample_at_every_tick);
     RUN_TEST(test_the_longest_filter_of_a_latch);
     RUN_TEST(test_a_latch_at_rest);
+    RUN_TEST(test_a_latch_that_halts_at_every_tick);
+    RUN_TEST(test_a_latch_that_halts_at_rest);
+    RUN_TEST(test_a_trip_lasts_though_the_tick_is_started);
     return UNITY_END();
 }

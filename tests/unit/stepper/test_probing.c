@@ -232,14 +232,17 @@ static void test_what_is_refused(void) {
 
 int main(void) {
     UNITY_BEGIN();
-    RUN_TEST(test_the_place_is_exact_at_any_speed);
-    RUN_TEST(test_the_place_is_exact_with_an_scurve);
-    RUN_TEST(test_contact_can_be_lost);
-    RUN_TEST(test_active_high);
-    RUN_TEST(test_the_queue_before_and_moves_behind);
-    RUN_TEST(test_no_contact_before_the_target);
-    RUN_TEST(test_contact_at_the_start);
-    RUN_TEST(test_stops);
-    RUN_TEST(test_what_is_refused);
+    for (unsigned curved = 0; curved < 2; curved++) {
+        homing_bench_scurve(curved != 0);
+        RUN_TEST(test_the_place_is_exact_at_any_speed);
+        RUN_TEST(test_the_place_is_exact_with_an_scurve);
+        RUN_TEST(test_contact_can_be_lost);
+        RUN_TEST(test_active_high);
+        RUN_TEST(test_the_queue_before_and_moves_behind);
+        RUN_TEST(test_no_contact_before_the_target);
+        RUN_TEST(test_contact_at_the_start);
+        RUN_TEST(test_stops);
+        RUN_TEST(test_what_is_refused);
+    }
     return UNITY_END();
 }
