@@ -20,7 +20,8 @@ X_MIN, Y_MIN, Z_MIN, ESTOP = 16, 17, 18, 22
 SWITCH = Switch(X_MIN, "X", -5.0)
 FILE = 'OPEN "f.nc" FOR OUTPUT AS #1 : PRINT #1, "G1 X1 F600" : CLOSE #1'
 SLOW_FILE = 'OPEN "s.nc" FOR OUTPUT AS #1 : PRINT #1, "G1 X50 F300" : CLOSE #1'
-INIT = [FILE, SLOW_FILE, f"STEPPER INIT ,64,GP{ESTOP}"]
+PROBING_FILE = 'OPEN "p.nc" FOR OUTPUT AS #1 : PRINT #1, "G38.3 X50 F300" : CLOSE #1'
+INIT = [FILE, SLOW_FILE, PROBING_FILE, f"STEPPER INIT ,64,GP{ESTOP}"]
 SET_UP = [
     *INIT,
     *AXES,
@@ -59,6 +60,7 @@ STATES: dict[str, tuple[list[str], list[Event]]] = {
     "jogging": ([*IDLE, "STEPPER JOG X,50,300", "PAUSE 100"], []),
     "homing": ([*KNOWN, SLOW, "STEPPER HOME RUN X", "PAUSE 100"], []),
     "file": ([*IDLE, 'STEPPER FILE "s.nc"', "PAUSE 100"], []),
+    "probing": ([*IDLE, 'STEPPER FILE "p.nc"', "PAUSE 100"], []),
     "E-STOP": (MOVING, [Event(50, ESTOP, 0)]),
     "was E-STOP": ([*MOVING, "PAUSE 100"], [Event(50, ESTOP, 0), Event(110, ESTOP, 1)]),
     "limit": (MOVING, [Event(50, Y_MIN, 0)]),
@@ -73,6 +75,7 @@ ERRORS = {
     "x": "X axis not configured (use STEPPER AXIS)",
     "E": "E-STOP active - clear E-STOP and re-home",
     "R": "Not possible while armed (STEPPER RECOVER disarms)",
+    "p": "Probing is under way (STEPPER STOP or Ctrl-C ends it)",
     "F": "A G-code file is running (STEPPER STOP ends it)",
     "e": "E-STOP alarm - home (G28), STEPPER POSITION or STEPPER RECOVER first",
     "l": "Limit switch Y_MIN alarm - home (G28), STEPPER POSITION or STEPPER RECOVER first",
@@ -93,67 +96,67 @@ ERRORS = {
 # In each line a command and its columns, one for each state in the order of STATES. w: it waits,
 # for the user has the machine held.
 MATRIX = """
-STEPPER INIT                              . I I I I I I I I I I I I I I I I I
-STEPPER AXIS X,GP2,GP3,GP4,,80,6000,500   N . . . . B B B B B B B H B . . . .
-STEPPER TUNE X,,,5000                     N x . . . B B B B B B B H B . . . .
-STEPPER INVERT X,0                        N x . . . B B B B B B B H B . . . .
-STEPPER ENABLE X,1                        N x . . . B B B B B B B H B E . . .
-STEPPER ENABLE X,0                        N x . R R B B B B B B B H B . . . R
-STEPPER RESET                             N . . . . B B B B B B B H B . . . .
-STEPPER LIMITS X,-500,500                 N x . . . B B B B B B B H B . . . .
-STEPPER SPINDLE GP14                      N . . . . B B B B B B B H B . . . .
-STEPPER COOLANT GP15                      N . . . . B B B B B B B H B . . . .
-STEPPER PROBE GP26                        N . . . . B B B B B B B H B . . . .
-STEPPER HWLIMITS GP16,GP17,GP18           N . . . . B B B B B B B H B . . . .
-STEPPER HWLIMITS FILTER 3                 N . . . . . . . . . . . . . . . . .
-STEPPER HWLIMITS KEEP 0                   N . . . . . . . . . . . . . . . . .
-STEPPER HOME X,,500                       N x . . . . . . . . . . H . . . . .
-STEPPER HOME ORDER "ZXY"                  N . . . . . . . . . . . H . . . . .
-STEPPER JUNCTION 0.05                     N . . . . . . . . . . . . . . . . .
-STEPPER SCURVE 1                          N . . . . . . . . . . . . . . . . .
-STEPPER JERK 20000                        N . . . . . . . . . . . . . . . . .
-STEPPER ARC 0.1                           N . . . . . . . . . . . . . . . . .
-STEPPER ARC LEGACY 1                      N . . . . . . . . . . . . . . . . .
-STEPPER DIALECT REFERENCE                 N . . . . . . . . . . . . F . . . .
-STEPPER BLOCKDELETE 1                     N . . . . . . . . . . . . . . . . .
-STEPPER OPTIONALSTOP 0                    N . . . . . . . . . . . . . . . . .
-STEPPER OVERRIDE FEED,100                 N . . . . . . . . . . . . . . . . .
-STEPPER BUFFER                            N . . . . . . . . . . . . . . . . .
-STEPPER STATUS                            . . . . . . . . . . . . . . . . . .
-STEPPER RUN                               N . . . . . . . . . . . H . E e l .
-STEPPER CLEAR                             N . . . . . M M M M M M H M . . . .
-STEPPER STOP                              N . . . . . . . . . . . . . . . . .
-STEPPER HOLD                              N . . . . . . . . . . . . . . . . .
-STEPPER RESUME                            N . . . . . . . . . . . . . . . . .
-STEPPER JOG STOP                          N . . . . . . . . . . . . . . . . .
-STEPPER JOG X,1,600                       N r r . . j j j j j S . H F E e l .
-STEPPER ESTOP                             N . . . . . . . . . . . . . . . . .
-STEPPER RECOVER                           N . . . . . . . . . . . . . E . . .
-STEPPER CLOSE                             N . . . . . . . . . . . . . . . . .
-STEPPER POSITION HOME                     N . . . . B B B B B B B H B E . . .
-STEPPER POSITION X,5                      N x . . . B B B B B B B H B E . . .
-STEPPER HOME RUN X                        N x . . . r . . . . S J H F E . . .
-STEPPER FILE "f.nc"                       N r r . . r . . . . S J H F E e l .
-STEPPER CHECK "f.nc"                      N k . . . . . . . . . . . . . . . .
-STEPPER GC G90                            N . . . . . . . . . . . . F . . . .
-STEPPER GC G1 X1 F600                     N x . P . . . . . . S J H F e e l L
-STEPPER GC G2 I1 F600                     N P . P . . . . . . S J H F e e l L
-STEPPER GC G81 X1 Z-1 R1 F600             N x . P . . . . . . S J H F e e l L
-STEPPER GC G4 P10                         N . . . . . . . . . S J H F e e l .
-STEPPER GC M3                             N s . . . . . . . . S J H F e e l .
-STEPPER GC M5                             N s . . . . . . . . S J H F e e l .
-STEPPER GC M8                             N c . . . . . . . . S J H F e e l .
-STEPPER GC M0                             N . . . . . . . . . S J H F e e l .
-STEPPER GC M30                            N . . . . . . . . . . . . F . . . .
-STEPPER GC T1 M6                          N . . . . . . . . . S J H F e e l .
-STEPPER GC G92 X0                         N x . P . . . . . . S J H F P P P .
-STEPPER GC G10 L2 P1 X1                   N x . . . . . . . . . . . F . . . .
-STEPPER GC G28.1                          N P . P . . . . . . S J H F P P P .
-STEPPER GC G28 X0                         N x . . . r . . w w S J H F E . . .
-STEPPER GC G30                            N g . g . . . . . . S J H F e e l L
-STEPPER GC G38.3 X1 F600                  N x r P . r . . w w S J H F e e l L
-STEPPER GS "G91"                          N . . . . . . . . . . . . F . . . .
-STEPPER GCODE G1,X,1,F,600                N x . P . . . . . . S J H F e e l L
+STEPPER INIT                              . I I I I I I I I I I I I I I I I I I
+STEPPER AXIS X,GP2,GP3,GP4,,80,6000,500   N . . . . B B B B B B B H B p . . . .
+STEPPER TUNE X,,,5000                     N x . . . B B B B B B B H B p . . . .
+STEPPER INVERT X,0                        N x . . . B B B B B B B H B p . . . .
+STEPPER ENABLE X,1                        N x . . . B B B B B B B H B p E . . .
+STEPPER ENABLE X,0                        N x . R R B B B B B B B H B p . . . R
+STEPPER RESET                             N . . . . B B B B B B B H B p . . . .
+STEPPER LIMITS X,-500,500                 N x . . . B B B B B B B H B p . . . .
+STEPPER SPINDLE GP14                      N . . . . B B B B B B B H B p . . . .
+STEPPER COOLANT GP15                      N . . . . B B B B B B B H B p . . . .
+STEPPER PROBE GP26                        N . . . . B B B B B B B H B p . . . .
+STEPPER HWLIMITS GP16,GP17,GP18           N . . . . B B B B B B B H B p . . . .
+STEPPER HWLIMITS FILTER 3                 N . . . . . . . . . . . . . . . . . .
+STEPPER HWLIMITS KEEP 0                   N . . . . . . . . . . . . . . . . . .
+STEPPER HOME X,,500                       N x . . . . . . . . . . H . p . . . .
+STEPPER HOME ORDER "ZXY"                  N . . . . . . . . . . . H . p . . . .
+STEPPER JUNCTION 0.05                     N . . . . . . . . . . . . . . . . . .
+STEPPER SCURVE 1                          N . . . . . . . . . . . . . . . . . .
+STEPPER JERK 20000                        N . . . . . . . . . . . . . . . . . .
+STEPPER ARC 0.1                           N . . . . . . . . . . . . . . . . . .
+STEPPER ARC LEGACY 1                      N . . . . . . . . . . . . . . . . . .
+STEPPER DIALECT REFERENCE                 N . . . . . . . . . . . . F F . . . .
+STEPPER BLOCKDELETE 1                     N . . . . . . . . . . . . . . . . . .
+STEPPER OPTIONALSTOP 0                    N . . . . . . . . . . . . . . . . . .
+STEPPER OVERRIDE FEED,100                 N . . . . . . . . . . . . . . . . . .
+STEPPER BUFFER                            N . . . . . . . . . . . . . . . . . .
+STEPPER STATUS                            . . . . . . . . . . . . . . . . . . .
+STEPPER RUN                               N . . . . . . . . . . . H . p E e l .
+STEPPER CLEAR                             N . . . . . M M M M M M H M p . . . .
+STEPPER STOP                              N . . . . . . . . . . . . . . . . . .
+STEPPER HOLD                              N . . . . . . . . . . . . . . . . . .
+STEPPER RESUME                            N . . . . . . . . . . . . . . . . . .
+STEPPER JOG STOP                          N . . . . . . . . . . . . . . . . . .
+STEPPER JOG X,1,600                       N r r . . j j j j j S . H F F E e l .
+STEPPER ESTOP                             N . . . . . . . . . . . . . . . . . .
+STEPPER RECOVER                           N . . . . . . . . . . . . . . E . . .
+STEPPER CLOSE                             N . . . . . . . . . . . . . . . . . .
+STEPPER POSITION HOME                     N . . . . B B B B B B B H B p E . . .
+STEPPER POSITION X,5                      N x . . . B B B B B B B H B p E . . .
+STEPPER HOME RUN X                        N x . . . r . . . . S J H F F E . . .
+STEPPER FILE "f.nc"                       N r r . . r . . . . S J H F F E e l .
+STEPPER CHECK "f.nc"                      N k . . . . . . . . . . . . . . . . .
+STEPPER GC G90                            N . . . . . . . . . . . . F F . . . .
+STEPPER GC G1 X1 F600                     N x . P . . . . . . S J H F F e e l L
+STEPPER GC G2 I1 F600                     N P . P . . . . . . S J H F F e e l L
+STEPPER GC G81 X1 Z-1 R1 F600             N x . P . . . . . . S J H F F e e l L
+STEPPER GC G4 P10                         N . . . . . . . . . S J H F F e e l .
+STEPPER GC M3                             N s . . . . . . . . S J H F F e e l .
+STEPPER GC M5                             N s . . . . . . . . S J H F F e e l .
+STEPPER GC M8                             N c . . . . . . . . S J H F F e e l .
+STEPPER GC M0                             N . . . . . . . . . S J H F F e e l .
+STEPPER GC M30                            N . . . . . . . . . . . . F F . . . .
+STEPPER GC T1 M6                          N . . . . . . . . . S J H F F e e l .
+STEPPER GC G92 X0                         N x . P . . . . . . S J H F F P P P .
+STEPPER GC G10 L2 P1 X1                   N x . . . . . . . . . . . F F . . . .
+STEPPER GC G28.1                          N P . P . . . . . . S J H F F P P P .
+STEPPER GC G28 X0                         N x . . . r . . w w S J H F F E . . .
+STEPPER GC G30                            N g . g . . . . . . S J H F F e e l L
+STEPPER GC G38.3 X1 F600                  N x r P . r . . w w S J H F F e e l L
+STEPPER GS "G91"                          N . . . . . . . . . . . . F F . . . .
+STEPPER GCODE G1,X,1,F,600                N x . P . . . . . . S J H F F e e l L
 """
 
 
@@ -198,7 +201,7 @@ def test_no_command_is_forgotten() -> None:
     assert missing == []
 
 
-MOVING_STATES = ("moving", "dwelling", "stopping", "jogging", "homing", "file")
+MOVING_STATES = ("moving", "dwelling", "stopping", "jogging", "homing", "file", "probing")
 
 
 def still(status: str, state: str) -> str:
@@ -237,6 +240,7 @@ ENDS = {
     "paused": 50.0,
     "jogging": 50.0,
     "file": 50.0,
+    "probing": 50.0,
 }
 
 
