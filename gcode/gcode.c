@@ -93,10 +93,6 @@ void gcode_set_options(const gcode_options_t *options) {
     gcode_live.state.options = *options;
 }
 
-gcode_plane_t gcode_plane(void) {
-    return (gcode_plane_t)gcode_live.state.modal.plane;
-}
-
 gcode_path_t gcode_path(void) {
     return gcode_live.state.modal.path;
 }

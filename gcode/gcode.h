@@ -67,19 +67,12 @@ typedef struct {
 const gcode_options_t *gcode_options(void);
 void gcode_set_options(const gcode_options_t *options);
 
-// The plane of arcs: G17, G18, G19.
-typedef enum { GCODE_PLANE_XY, GCODE_PLANE_ZX, GCODE_PLANE_YZ } gcode_plane_t;
-gcode_plane_t gcode_plane(void);
-
 // How corners are passed: G61 exact, G61.1 stop, G64 continuous, G64 P blend within P mm.
 typedef struct {
     stepper_corner_t corner;
     double blend_mm; // of a blend, > 0
 } gcode_path_t;
 gcode_path_t gcode_path(void);
-
-// M5, M3, M4.
-typedef enum { GCODE_SPINDLE_OFF, GCODE_SPINDLE_CW, GCODE_SPINDLE_CCW } gcode_spindle_t;
 
 // Machine position = work position + offset, in mm or degrees: the coordinate system, G92 and, on
 // Z, the tool's length.

@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-#include "gcode/gcode_plan.h"
+#include "gcode/gcode_offsets.h"
 
 #define SAME_PLACE_MM 1e-6
 #define RADIUS_MIN_MM 0.001
 
-// By gcode_plane_t; counter-clockwise is from the first to the second axis.
+// By plane_t; counter-clockwise is from the first to the second axis.
 static const axis_id_t planes[][2] = {
     {AXIS_X, AXIS_Y},
     {AXIS_Z, AXIS_X},
@@ -57,7 +57,7 @@ static err_t centre_by_words(stepper_arc_t *arc, const line_t *line, const gcode
             return err_raise(ERR_GCODE_ARC_ABSOLUTE, "%c %c", letter_of(plane[0]),
                              letter_of(plane[1]));
         }
-        arc->centre[n] += gcode_plan_offset(line, state, plane[n]) - start[plane[n]];
+        arc->centre[n] += gcode_offsets_of(state, &line->modal, plane[n]) - start[plane[n]];
     }
     return ERR_OK;
 }

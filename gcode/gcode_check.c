@@ -251,7 +251,7 @@ static err_t check_blend(line_t *line) {
 }
 
 static err_t check_cycle(line_t *line, const gcode_state_t *before) {
-    if (line->modal.plane != GCODE_PLANE_XY) {
+    if (line->modal.plane != PLANE_XY) {
         return needs("Canned cycles need G17, the XY plane");
     }
     return line_has(line, WORD_P) ? check_dwell(line, before) : ERR_OK;
@@ -311,7 +311,7 @@ static void set_tool(line_t *line, const gcode_state_t *before) {
     if (line_has_group(line, GROUP_TOOL_CHANGE)) {
         modal->tool = modal->next_tool;
         if (!line_has_group(line, GROUP_SPINDLE)) {
-            modal->spindle = GCODE_SPINDLE_OFF;
+            modal->spindle = STEPPER_SPINDLE_OFF;
         }
     }
     if (!line_has_group(line, GROUP_TOOL_LENGTH)) {

@@ -10,7 +10,7 @@ typedef struct {
     uint8_t value; // by group
 } code_t;
 
-// Values of GROUP_SPINDLE are gcode_spindle_t; these are those of GROUP_COOLANT.
+// Values of GROUP_SPINDLE are stepper_turn_t; these are those of GROUP_COOLANT.
 enum { COOLANT_OFF, COOLANT_FLOOD, COOLANT_MIST };
 
 // The frequent ones first: the search is linear.
@@ -23,9 +23,9 @@ static const code_t g_codes[] = {
     {910, GROUP_DISTANCE, true},
     {40, GROUP_ONCE, ONCE_DWELL},
     {100, GROUP_ONCE, ONCE_SET},
-    {170, GROUP_PLANE, GCODE_PLANE_XY},
-    {180, GROUP_PLANE, GCODE_PLANE_ZX},
-    {190, GROUP_PLANE, GCODE_PLANE_YZ},
+    {170, GROUP_PLANE, PLANE_XY},
+    {180, GROUP_PLANE, PLANE_ZX},
+    {190, GROUP_PLANE, PLANE_YZ},
     {200, GROUP_UNITS, true},
     {210, GROUP_UNITS, false},
     {280, GROUP_ONCE, ONCE_G28},
@@ -77,9 +77,9 @@ static const code_t m_codes[] = {
     {0, GROUP_STOP, STOP_PAUSE},
     {10, GROUP_STOP, STOP_OPTIONAL},
     {20, GROUP_STOP, STOP_END},
-    {30, GROUP_SPINDLE, GCODE_SPINDLE_CW},
-    {40, GROUP_SPINDLE, GCODE_SPINDLE_CCW},
-    {50, GROUP_SPINDLE, GCODE_SPINDLE_OFF},
+    {30, GROUP_SPINDLE, STEPPER_SPINDLE_CW},
+    {40, GROUP_SPINDLE, STEPPER_SPINDLE_CCW},
+    {50, GROUP_SPINDLE, STEPPER_SPINDLE_OFF},
     {60, GROUP_TOOL_CHANGE, 0},
     {70, GROUP_COOLANT, COOLANT_MIST},
     {80, GROUP_COOLANT, COOLANT_FLOOD},

@@ -29,11 +29,6 @@ static err_t place(double target[AXIS_COUNT]) {
     return err;
 }
 
-// The two lists are in the same order.
-static stepper_turn_t turn_of(const gcode_entry_t *entry) {
-    return (stepper_turn_t)entry->spindle.direction;
-}
-
 static err_t check_probe(const gcode_entry_t *entry, const double from[AXIS_COUNT]) {
     bool invert;
     if (stepper_probe_config(&invert) == PINS_NONE) {
@@ -55,7 +50,7 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
         err = check_probe(entry, from);
         break;
     case ENTRY_SPINDLE:
-        return stepper_spindle_check(turn_of(entry));
+        return stepper_spindle_check(entry->spindle.turn);
     case ENTRY_COOLANT:
         return stepper_coolant_check(entry->coolant.flood, entry->coolant.mist);
     default:
@@ -122,7 +117,7 @@ static err_t push(const gcode_entry_t *entry) {
     case ENTRY_DWELL:
         return stepper_dwell(entry->dwell_ms);
     case ENTRY_SPINDLE:
-        return stepper_spindle_switch(turn_of(entry), entry->spindle.rpm);
+        return stepper_spindle_switch(entry->spindle.turn, entry->spindle.rpm);
     case ENTRY_COOLANT:
         return stepper_coolant_switch(entry->coolant.flood, entry->coolant.mist);
     case ENTRY_PAUSE:
@@ -146,7 +141,7 @@ static bool ended(err_t *result) {
 static gcode_outputs_t outputs(void) {
     stepper_outputs_t now;
     stepper_outputs(&now);
-    return (gcode_outputs_t){(gcode_spindle_t)now.turn, now.flood, now.mist};
+    return (gcode_outputs_t){now.turn, now.flood, now.mist};
 }
 
 const gcode_sink_t gcode_machine = {

@@ -16,19 +16,22 @@ bool gcode_offsets_need_place(const line_t *line) {
            line->once == ONCE_STORE_G30 || sets_from_here(line);
 }
 
-// The sum of what is in force besides the coordinate system, or besides G92.
-static double tool_length(const gcode_state_t *state, axis_id_t axis) {
-    return axis == AXIS_Z ? state->modal.tool_length_mm : 0.0;
+static double tool_length(const modal_t *modal, axis_id_t axis) {
+    return axis == AXIS_Z ? modal->tool_length_mm : 0.0;
 }
 
-static double shift_of(const gcode_state_t *state, axis_id_t axis) {
-    return state->modal.shifted ? state->shift[axis] : 0.0;
+static double shift_of(const gcode_state_t *state, const modal_t *modal, axis_id_t axis) {
+    return modal->shifted ? state->shift[axis] : 0.0;
+}
+
+double gcode_offsets_of(const gcode_state_t *state, const modal_t *modal, axis_id_t axis) {
+    return state->systems[modal->system][axis] + shift_of(state, modal, axis) +
+           tool_length(modal, axis);
 }
 
 void gcode_offsets_sum(gcode_state_t *state) {
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        state->offset[axis] = state->systems[state->modal.system][axis] + shift_of(state, axis) +
-                              tool_length(state, axis);
+        state->offset[axis] = gcode_offsets_of(state, &state->modal, axis);
     }
 }
 
@@ -38,7 +41,7 @@ static void set_shift(gcode_state_t *state, const line_t *line, bool was_shifted
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
         double old = was_shifted ? state->shift[axis] : 0.0;
         bool given = line_has(line, (word_t)axis);
-        double base = state->systems[state->modal.system][axis] + tool_length(state, axis);
+        double base = state->systems[state->modal.system][axis] + tool_length(&state->modal, axis);
         state->shift[axis] = given ? place[axis] - base - line->value[axis] : old;
     }
 }
@@ -56,9 +59,11 @@ static void set_table(gcode_state_t *state, const line_t *line, const double pla
             continue;
         }
         double value = line->value[axis];
-        system[axis] = sets_from_here(line)
-                           ? place[axis] - shift_of(state, axis) - tool_length(state, axis) - value
-                           : value;
+        if (sets_from_here(line)) {
+            value = place[axis] - shift_of(state, &state->modal, axis) -
+                    tool_length(&state->modal, axis) - value;
+        }
+        system[axis] = value;
     }
 }
 
@@ -71,11 +76,11 @@ static void store(gcode_state_t *state, stored_t stored, const double place[AXIS
 // tool length and G92 stay.
 static void end_program(modal_t *modal) {
     modal->motion = MOTION_FEED;
-    modal->plane = GCODE_PLANE_XY;
+    modal->plane = PLANE_XY;
     modal->system = 0;
     modal->relative = false;
     modal->inverse_time = false;
-    modal->spindle = GCODE_SPINDLE_OFF;
+    modal->spindle = STEPPER_SPINDLE_OFF;
     modal->flood = false;
     modal->mist = false;
 }

@@ -5,6 +5,7 @@
 
 #include "gcode/gcode_arc.h"
 #include "gcode/gcode_check.h"
+#include "gcode/gcode_offsets.h"
 #include "stepper/stepper_check.h"
 
 // ---- Which steps --------------------------------------------------------------------------------
@@ -16,14 +17,14 @@ static uint32_t bit(step_t step) {
 // Lines and arcs take a new speed along without a stop; otherwise it needs an entry of its own.
 static bool changes_speed(const line_t *line) {
     bool takes_along = line->moves && line->modal.motion <= MOTION_ARC_CCW;
-    return line_has(line, WORD_S) && line->modal.spindle != GCODE_SPINDLE_OFF && !takes_along;
+    return line_has(line, WORD_S) && line->modal.spindle != STEPPER_SPINDLE_OFF && !takes_along;
 }
 
 static uint32_t steps_of_tool(const line_t *line, const gcode_state_t *before) {
     if (!line_has_group(line, GROUP_TOOL_CHANGE)) {
         return 0;
     }
-    bool turns = before->modal.spindle != GCODE_SPINDLE_OFF;
+    bool turns = before->modal.spindle != STEPPER_SPINDLE_OFF;
     return bit(STEP_TOOL) | (turns ? bit(STEP_TOOL_STOP) : 0);
 }
 
@@ -35,7 +36,7 @@ static uint32_t steps_of_end(const line_t *line, const gcode_state_t *before) {
     case STOP_OPTIONAL:
         return before->options.optional_stop ? bit(STEP_PAUSE) : 0;
     case STOP_END:
-        return bit(STEP_END) | (modal->spindle != GCODE_SPINDLE_OFF ? bit(STEP_END_SPINDLE) : 0) |
+        return bit(STEP_END) | (modal->spindle != STEPPER_SPINDLE_OFF ? bit(STEP_END_SPINDLE) : 0) |
                (modal->flood || modal->mist ? bit(STEP_END_COOLANT) : 0);
     case STOP_NONE:
         break;
@@ -75,12 +76,6 @@ uint32_t gcode_plan_steps(const line_t *line, const gcode_state_t *before) {
 
 // ---- Places -------------------------------------------------------------------------------------
 
-double gcode_plan_offset(const line_t *line, const gcode_state_t *state, axis_id_t axis) {
-    double offset = state->systems[line->modal.system][axis];
-    offset += line->modal.shifted ? state->shift[axis] : 0.0;
-    return axis == AXIS_Z ? offset + line->modal.tool_length_mm : offset;
-}
-
 static bool moves_origin(const line_t *line) {
     const uint32_t groups =
         1u << GROUP_SYSTEM | 1u << GROUP_TOOL_LENGTH | 1u << GROUP_ONCE | 1u << GROUP_STOP;
@@ -97,7 +92,7 @@ static double place_of(const line_t *line, const gcode_state_t *state, axis_id_t
         return from + value;
     }
     return value +
-           (moves_origin(line) ? gcode_plan_offset(line, state, axis) : state->offset[axis]);
+           (moves_origin(line) ? gcode_offsets_of(state, &line->modal, axis) : state->offset[axis]);
 }
 
 static void find_target(const line_t *line, const gcode_state_t *state,
@@ -192,9 +187,9 @@ static void find_stored(const line_t *line, const gcode_state_t *state,
     }
 }
 
-static void set_spindle(gcode_entry_t *entry, unsigned direction, double rpm) {
+static void set_spindle(gcode_entry_t *entry, unsigned turn, double rpm) {
     entry->kind = ENTRY_SPINDLE;
-    entry->spindle.direction = (gcode_spindle_t)direction;
+    entry->spindle.turn = (stepper_turn_t)turn;
     entry->spindle.rpm = rpm;
 }
 
@@ -211,7 +206,7 @@ static err_t make(step_t step, const gcode_plan_t *plan, const gcode_state_t *st
     switch (step) {
     case STEP_TOOL_STOP:
     case STEP_END_SPINDLE:
-        set_spindle(entry, GCODE_SPINDLE_OFF, 0.0);
+        set_spindle(entry, STEPPER_SPINDLE_OFF, 0.0);
         break;
     case STEP_TOOL:
     case STEP_PAUSE:
@@ -259,7 +254,7 @@ err_t gcode_plan_begin(gcode_plan_t *plan, const gcode_state_t *before,
     }
     double offset[AXIS_COUNT];
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        offset[axis] = gcode_plan_offset(line, before, axis);
+        offset[axis] = gcode_offsets_of(before, &line->modal, axis);
     }
     bool first = before->modal.motion < MOTION_CYCLE_CHIPS;
     return gcode_cycle_begin(&plan->cycle, line, &before->cycle, first, from, offset);

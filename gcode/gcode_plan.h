@@ -33,9 +33,6 @@ typedef struct {
 // The steps of a line as bits; `before` is the state before it.
 uint32_t gcode_plan_steps(const line_t *line, const gcode_state_t *before);
 
-// Machine = work + this, as the line will have it.
-double gcode_plan_offset(const line_t *line, const gcode_state_t *state, axis_id_t axis);
-
 // Begins a plan whose line and steps are filled in, at `from`. Errors: of cycles.
 err_t gcode_plan_begin(gcode_plan_t *plan, const gcode_state_t *before,
                        const double from[AXIS_COUNT]);

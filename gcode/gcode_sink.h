@@ -4,6 +4,7 @@
 #define GCODE_SINK_H
 
 #include "gcode/gcode.h"
+#include "stepper/stepper_outputs.h"
 
 typedef enum {
     ENTRY_MOVE,    // arc.move
@@ -27,7 +28,7 @@ typedef struct {
         } probe;
         double dwell_ms;
         struct {
-            gcode_spindle_t direction;
+            stepper_turn_t turn;
             double rpm;
         } spindle;
         struct {
@@ -39,7 +40,7 @@ typedef struct {
 } gcode_entry_t;
 
 typedef struct {
-    gcode_spindle_t spindle;
+    stepper_turn_t spindle;
     bool flood, mist;
 } gcode_outputs_t;
 

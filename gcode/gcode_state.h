@@ -4,6 +4,7 @@
 #define GCODE_STATE_H
 
 #include "gcode/gcode.h"
+#include "stepper/stepper_outputs.h"
 
 #define GCODE_MM_PER_INCH 25.4
 
@@ -24,11 +25,14 @@ typedef enum {
     MOTION_CYCLE_PECK       // G83
 } motion_t;
 
+// The plane of arcs: G17, G18, G19.
+typedef enum { PLANE_XY, PLANE_ZX, PLANE_YZ } plane_t;
+
 typedef struct {
     uint8_t motion;       // motion_t
-    uint8_t plane;        // gcode_plane_t
+    uint8_t plane;        // plane_t
     uint8_t system;       // 0..8: G54..G59.3
-    uint8_t spindle;      // gcode_spindle_t, as of the last entry queued
+    uint8_t spindle;      // stepper_turn_t, as of the last entry queued
     bool relative;        // G91
     bool centre_absolute; // G90.1
     bool inches;          // G20

@@ -22,8 +22,8 @@ typedef struct {
     double place[AXIS_COUNT];      // where the last entry ended
     uint32_t line_axes;            // that move in the line being read
     gcode_range_t way[AXIS_COUNT]; // in that line, machine coordinates
-    gcode_spindle_t spindle;       // as it was switched
-    gcode_spindle_t turning;       // the same, but off at a speed of 0
+    stepper_turn_t spindle;        // as it was switched
+    stepper_turn_t turning;        // the same, but off at a speed of 0
 } survey_t;
 
 _Static_assert(sizeof(survey_t) <= GCODE_SURVEY_SIZE, "GCODE_SURVEY_SIZE is too small");
@@ -120,7 +120,7 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
         memcpy(from, entry->arc.move.target, sizeof entry->arc.move.target);
         return ERR_OK;
     case ENTRY_SPINDLE:
-        return stepper_spindle_check((stepper_turn_t)entry->spindle.direction);
+        return stepper_spindle_check(entry->spindle.turn);
     case ENTRY_COOLANT:
         return stepper_coolant_check(entry->coolant.flood, entry->coolant.mist);
     default:
@@ -129,16 +129,16 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
 }
 
 // The spindle needs its time when it starts or turns round.
-static void switch_spindle(gcode_spindle_t direction, double rpm) {
+static void switch_spindle(stepper_turn_t turn, double rpm) {
     stepper_outputs_t outputs;
     stepper_outputs(&outputs);
     bool turns = rpm > 0.0 || outputs.spindle.max_rpm <= 0.0;
-    gcode_spindle_t turning = turns ? direction : GCODE_SPINDLE_OFF;
-    bool starts = turning != GCODE_SPINDLE_OFF && turning != survey->turning;
+    stepper_turn_t turning = turns ? turn : STEPPER_SPINDLE_OFF;
+    bool starts = turning != STEPPER_SPINDLE_OFF && turning != survey->turning;
     double seconds = starts ? (double)outputs.spindle.spinup_ms / MS_PER_S : 0.0;
     stepper_estimate_pause(&survey->estimate, seconds);
     survey->turning = turning;
-    survey->spindle = direction;
+    survey->spindle = turn;
 }
 
 static void home(uint32_t axes) {
@@ -170,7 +170,7 @@ static err_t push(const gcode_entry_t *entry) {
         stepper_estimate_pause(&survey->estimate, entry->dwell_ms / MS_PER_S);
         break;
     case ENTRY_SPINDLE:
-        switch_spindle(entry->spindle.direction, entry->spindle.rpm);
+        switch_spindle(entry->spindle.turn, entry->spindle.rpm);
         break;
     case ENTRY_PAUSE:
         survey->report->pauses++;
@@ -259,9 +259,9 @@ static void begin(gcode_report_t *report) {
     survey->report = report;
     gcode_interpreter_start(&survey->interpreter, &sink);
     survey->interpreter.state = gcode_live.state;
-    survey->spindle = (gcode_spindle_t)gcode_live.state.modal.spindle;
+    survey->spindle = (stepper_turn_t)gcode_live.state.modal.spindle;
     survey->turning =
-        survey->interpreter.state.modal.rpm > 0.0 ? survey->spindle : GCODE_SPINDLE_OFF;
+        survey->interpreter.state.modal.rpm > 0.0 ? survey->spindle : STEPPER_SPINDLE_OFF;
     stepper_target(survey->place);
     stepper_estimate_start(&survey->estimate, survey->place);
 }

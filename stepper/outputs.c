@@ -34,8 +34,6 @@ bool outputs_coolant_on(uint8_t gpio) {
 void outputs_follow(void) {
     outputs.turn = outputs.turn_now;
     outputs.level = segment_writer_level();
-    outputs.flood = outputs_coolant_on(outputs.coolant.flood_gpio);
-    outputs.mist = outputs_coolant_on(outputs.coolant.mist_gpio);
 }
 
 void outputs_begin(const block_t *block) {

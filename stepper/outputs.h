@@ -11,10 +11,9 @@ enum { OUTPUTS_NOT_LIMITED, OUTPUTS_LIMITED, OUTPUTS_TOLD };
 typedef struct {
     stepper_spindle_t spindle;
     stepper_coolant_t coolant;
-    uint32_t counts;  // of a PWM period; 0: no PWM
-    uint8_t limited;  // a speed above the greatest was asked for; OUTPUTS_...
-    bool flood, mist; // behind the newest entry, as turn and level
-    uint8_t turn;
+    uint32_t counts;             // of a PWM period; 0: no PWM
+    uint8_t limited;             // a speed above the greatest was asked for; OUTPUTS_...
+    uint8_t turn;                // behind the newest entry
     uint16_t level;              // counts of the PWM period; of all moves that are queued now
     volatile uint8_t turn_now;   // as executed; governor
     volatile bool pwm_connected; // the pin shows the slice; governor

@@ -6,7 +6,6 @@
 #include "hal/slices.h"
 #include "stepper/governor.h"
 #include "stepper/lines.h"
-#include "stepper/machine.h"
 #include "stepper/moves.h"
 #include "stepper/outputs.h"
 #include "stepper/rules.h"
@@ -96,9 +95,11 @@ static void use_spindle(const stepper_spindle_t *config, hal_pwm_t *pwm) {
     }
     make_output(config->gpio, config->invert);
     make_output(config->dir_gpio, false);
+    hal_governor_lock();
     outputs.spindle = *config;
-    outputs.limited = OUTPUTS_NOT_LIMITED;
     outputs.counts = 0;
+    hal_governor_unlock();
+    outputs.limited = OUTPUTS_NOT_LIMITED;
     if (slice < HAL_PWM_SLICES) {
         start_slice(slice, pwm, config);
         outputs.counts = pwm->top + 1u;
@@ -197,7 +198,9 @@ static void use_coolant(const stepper_coolant_t *config) {
     outputs_coolant_off();
     give_back((const uint8_t[]){outputs.coolant.flood_gpio, outputs.coolant.mist_gpio},
               (const uint8_t[]){config->flood_gpio, config->mist_gpio});
+    hal_governor_lock();
     outputs.coolant = *config;
+    hal_governor_unlock();
     make_output(config->flood_gpio, config->invert);
     make_output(config->mist_gpio, config->invert);
     outputs_follow();
@@ -229,18 +232,10 @@ err_t stepper_coolant_switch(bool flood, bool mist) {
         block_pins_t pins = {.turn = outputs.turn};
         add_pin(&pins, outputs.coolant.flood_gpio, flood != outputs.coolant.invert);
         add_pin(&pins, outputs.coolant.mist_gpio, mist != outputs.coolant.invert);
-        outputs.flood = flood;
-        outputs.mist = mist;
         moves_push_pins(&pins);
         hal_governor_request();
     }
     return err;
-}
-
-void stepper_coolant_queued(bool *flood, bool *mist) {
-    machine_follow_stops();
-    *flood = outputs.flood;
-    *mist = outputs.mist;
 }
 
 void outputs_take_away(void) {

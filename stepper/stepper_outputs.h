@@ -55,12 +55,9 @@ typedef struct {
 // initialised, moving or queued, pins taken, one pin twice.
 err_t stepper_coolant(const stepper_coolant_t *config);
 
-// Switches both at this place of the queue, at standstill: one entry. What should stay as it is:
-// stepper_coolant_queued(). Further errors: one that should be on has no pin.
+// Switches both at this place of the queue, at standstill: one entry. Further errors: one that
+// should be on has no pin.
 err_t stepper_coolant_switch(bool flood, bool mist);
-
-// How they will be behind all that is queued.
-void stepper_coolant_queued(bool *flood, bool *mist);
 
 // Whether stepper_coolant_switch() would be refused because of the pins; raises it.
 err_t stepper_coolant_check(bool flood, bool mist);

@@ -71,7 +71,7 @@ static void note_entry(const gcode_entry_t *entry) {
         note("dwell %.9g", entry->dwell_ms);
         break;
     case ENTRY_SPINDLE:
-        note("spindle %s %.9g", turns[entry->spindle.direction], entry->spindle.rpm);
+        note("spindle %s %.9g", turns[entry->spindle.turn], entry->spindle.rpm);
         break;
     case ENTRY_COOLANT:
         note("coolant%s%s%s", entry->coolant.flood ? " flood" : "",
@@ -136,7 +136,7 @@ static err_t push(const gcode_entry_t *entry) {
         memcpy(recorder.target, entry->arc.move.target, sizeof recorder.target);
     }
     if (entry->kind == ENTRY_SPINDLE) {
-        recorder.spindle = entry->spindle.direction;
+        recorder.spindle = entry->spindle.turn;
     }
     return ERR_OK;
 }

@@ -13,7 +13,7 @@ typedef struct {
     double target[AXIS_COUNT];
     uint32_t room;  // entries that are still taken; UINT32_MAX: any number
     uint32_t drops; // tests raise it
-    gcode_spindle_t spindle;
+    stepper_turn_t spindle;
     err_t fails;  // all pushes, with this
     bool ended;   // homing or probing has ended
     err_t result; // with this

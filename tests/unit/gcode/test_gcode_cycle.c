@@ -66,7 +66,7 @@ static uint32_t drops(void) {
 }
 
 static gcode_outputs_t outputs(void) {
-    return (gcode_outputs_t){.spindle = GCODE_SPINDLE_OFF};
+    return (gcode_outputs_t){.spindle = STEPPER_SPINDLE_OFF};
 }
 
 static const gcode_sink_t recorder = {

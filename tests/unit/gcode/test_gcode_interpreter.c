@@ -70,11 +70,11 @@ static void test_without_any_room_nothing_has_happened(void) {
 static void test_a_drop_takes_what_waits_along(void) {
     recorder.room = 1;
     send("M3 S100 G1 X1 F100 M8", "spindle cw 100");
-    recorder.spindle = GCODE_SPINDLE_OFF; // as a stop leaves it
+    recorder.spindle = STEPPER_SPINDLE_OFF; // as a stop leaves it
     recorder.drops++;
     go_on(5, "");
     TEST_ASSERT_FALSE(in->busy);
-    TEST_ASSERT_EQUAL_UINT8(GCODE_SPINDLE_OFF, in->state.modal.spindle);
+    TEST_ASSERT_EQUAL_UINT8(STEPPER_SPINDLE_OFF, in->state.modal.spindle);
     TEST_ASSERT_FALSE(in->state.modal.flood);
     TEST_ASSERT_EQUAL(ERR_OK, gcode_interpreter_failure(in));
     send("S200", ""); // no spindle that turns
