@@ -6,39 +6,21 @@
 // is the fraction of position + 1/2, counts up to the next step; for a direction down it is
 // mirrored.
 //
-// Within a segment of n ticks the rate rises evenly around its mean:
-//
-//   rate |          .-+     first = mean - half * (n - 1)
-//        |      .-+-'       ramp  = 2 * half
-//   mean |- - +-' - - -     last  = mean + half * (n - 1)
-//        |.-+-'             way   = mean * n, exactly
-//        +-+-+-+-+-+-+-> ticks
-//
 // A target is where the path is at a time that may lie between two ticks. The segment ends at the
 // last tick before, with the rate of the path, and the rest of the way has the rest of the time.
 #include "stepper/segment_writer.h"
 
+#include "stepper/pace.h"
 #include "stepper/step_isr.h"
 
 #define HALF_STEP (STEP_ONE / 2)
 // Distances below this are rounding, not motion: 1/4096 of a step. They must not turn an axis
 // round.
 #define NO_DISTANCE ((int64_t)1 << 20)
-#define TICK_ONE ((int32_t)1 << 16)    // times in 2^-16 ticks
 #define AXES ((1u << AXIS_COUNT) - 1u) // of the flags of a segment
 #define ROOM 4                         // segments: one call writes up to that many
 // What is rare stays out of the quick way, which has too few registers on a Cortex-M0+ as it is.
 #define SEPARATE __attribute__((noinline))
-
-// How a segment goes its way.
-typedef struct {
-    uint32_t ticks;                 // of the segment
-    uint32_t share_high, share_low; // of the way in a tick, 2^-16 and 2^-32
-    uint32_t slope; // change of the rate in half a tick as a part of the mean rate, 2^-32
-    uint32_t late;  // 2^-32 ticks that the way goes on behind the segment
-    bool slowing;
-    int32_t due, change; // what it was made for
-} pace_t;
 
 typedef struct {
     int64_t place;      // 2^-32 steps, end of the last segment
@@ -48,7 +30,7 @@ typedef struct {
 
 static struct {
     writer_axis_t axes[AXIS_COUNT];
-    uint32_t flags; // of segments: bit n: axis n counts down; upper half: level of the PWM
+    uint32_t flags; // of segments: bit n: axis n counts down; upper half: PWM level
     uint32_t dir_inverted;
     int32_t late; // 2^-16 ticks by which the segments end before the times they should have had
     uint32_t end_ticks;
@@ -134,21 +116,6 @@ bool segment_writer_has_room(void) {
 
 // ---- One segment --------------------------------------------------------------------------------
 
-// The upper half of a product; exact would be up to 2 more.
-static inline uint32_t multiply_high(uint32_t a, uint32_t b) {
-    uint32_t a_low = a & 0xFFFFu;
-    uint32_t a_high = a >> 16;
-    uint32_t b_low = b & 0xFFFFu;
-    uint32_t b_high = b >> 16;
-    return a_high * b_high + ((a_high * b_low) >> 16) + ((a_low * b_high) >> 16);
-}
-
-// The whole product of a rate and less than 2^16 ticks.
-static inline int64_t way_of(uint32_t rate, uint32_t ticks) {
-    uint32_t high = (rate >> 16) * ticks + (((rate & 0xFFFFu) * ticks) >> 16);
-    return (int64_t)((uint64_t)(high >> 16) << 32 | rate * ticks);
-}
-
 static inline segment_t *open_slot(void) {
     return &segments.slots[segments.ring.put_slot];
 }
@@ -161,39 +128,6 @@ static inline bool counts_down(axis_id_t axis) {
 static inline uint32_t phase_at(int64_t place, bool down) {
     uint32_t phase = (uint32_t)place ^ (uint32_t)HALF_STEP;
     return down ? ~phase : phase;
-}
-
-// The rate with which `way` (> 0) is done in the time of the pace; too fast ones are limited.
-static inline uint32_t mean_rate(int64_t way, const pace_t *pace) {
-    uint32_t steps = (uint32_t)(way >> 32);
-    uint32_t low = (uint32_t)way & 0xFFFFu;
-    uint32_t high = (uint32_t)way >> 16;
-    if (steps > pace->ticks / 2) {
-        return RATE_MAX;
-    }
-    uint32_t share = pace->share_high << 16 | pace->share_low;
-    uint32_t rate = steps * share + high * pace->share_high + ((high * pace->share_low) >> 16) +
-                    ((low * pace->share_high) >> 16);
-    return rate < RATE_MAX ? rate : RATE_MAX;
-}
-
-// Makes the rate rise or fall evenly. Returns its mean over the segment, given that over the way.
-SEPARATE static uint32_t set_ramp(segment_axis_t *axis, uint32_t mean, const pace_t *pace) {
-    uint32_t steps = pace->ticks - 1;
-    uint32_t half = multiply_high(mean, pace->slope);
-    if (pace->late != 0) {
-        uint32_t late = multiply_high(half, pace->late);
-        mean = pace->slowing ? mean + late : mean - late;
-    }
-    uint32_t rise = half * steps;
-    if (mean + rise > RATE_MAX) {
-        mean = mean < RATE_MAX ? mean : RATE_MAX;
-        half = steps > 0 ? (RATE_MAX - mean) / steps : 0;
-        rise = half * steps;
-    }
-    axis->rate = pace->slowing ? mean + rise : mean - rise;
-    axis->ramp = pace->slowing ? 0 - 2 * half : 2 * half;
-    return mean;
 }
 
 // Fills the next slot, unpublished, and moves on. Axes that would have to turn round for it stand;
@@ -224,15 +158,15 @@ static uint32_t write_segment(const int64_t target[AXIS_COUNT], const pace_t *pa
             }
             continue;
         }
-        uint32_t mean = mean_rate(way, pace);
+        uint32_t mean = pace_mean_rate(pace, way);
         out->rate = mean;
         out->ramp = 0;
         from->last_rate = mean;
         if (pace->slope != 0) {
-            mean = set_ramp(out, mean, pace);
+            mean = pace_set_ramp(pace, out, mean);
             from->last_rate = 2 * mean - out->rate;
         }
-        int64_t moved = way_of(mean, pace->ticks);
+        int64_t moved = pace_way(mean, pace->ticks);
         from->place = down ? place - moved : place + moved;
     }
     return turning;
@@ -278,35 +212,13 @@ typedef struct {
     int32_t change; // of the path's speed on the way
 } way_t;
 
-SEPARATE static void set_pace(pace_t *pace, int32_t due, int32_t change) {
-    uint32_t share = UINT32_MAX;
-    pace->due = due;
-    pace->change = change;
-    pace->ticks = 1;
-    pace->late = 0;
-    if (due > TICK_ONE) {
-        share = (uint32_t)(((uint64_t)1 << 48) / (uint32_t)due);
-        pace->ticks = (uint32_t)due >> 16;
-        pace->late = (uint32_t)due << 16;
-    }
-    pace->share_high = share >> 16;
-    pace->share_low = share & 0xFFFFu;
-    uint32_t size = (uint32_t)(change < 0 ? -change : change);
-    pace->slope = (uint32_t)(((uint64_t)size * share) >> 30);
-    pace->slowing = change < 0;
-}
-
-static inline bool is_for(const pace_t *pace, const way_t *way) {
-    return way->due == pace->due && way->change == pace->change;
-}
-
 static inline uint32_t go(const way_t *way) {
     pace_t *pace = &writer.paces[writer.recent];
-    if (!is_for(pace, way)) {
+    if (!pace_is_for(pace, way->due, way->change)) {
         writer.recent ^= 1;
         pace = &writer.paces[writer.recent];
-        if (!is_for(pace, way)) {
-            set_pace(pace, way->due, way->change);
+        if (!pace_is_for(pace, way->due, way->change)) {
+            pace_set(pace, way->due, way->change);
         }
     }
     return write_segment(way->target, pace);
@@ -316,10 +228,10 @@ static inline uint32_t go(const way_t *way) {
 static void go_one_tick(way_t *way, uint32_t standing) {
     shorten(1, standing);
     close_slot();
-    if (way->due >= 2 * TICK_ONE) {
+    if (way->due >= 2 * PACE_TICK) {
         // With the mean speed as 1, a tick of the way from 1 - change to 1 + change is done.
-        int32_t done = TICK_ONE + way->change / (SEGMENT_CHANGE_ONE / TICK_ONE);
-        way->due -= TICK_ONE;
+        int32_t done = PACE_TICK + way->change / (SEGMENT_CHANGE_ONE / PACE_TICK);
+        way->due -= PACE_TICK;
         uint32_t size = (uint32_t)(way->change < 0 ? -way->change : way->change);
         size = (uint32_t)((uint64_t)size * (uint32_t)way->due / (uint32_t)(way->due + done));
         way->change = way->change < 0 ? -(int32_t)size : (int32_t)size;
@@ -391,7 +303,7 @@ SEPARATE static void arrive(const int64_t target[AXIS_COUNT]) {
     if (farthest >= NO_DISTANCE) {
         int32_t ticks = (int32_t)(((uint64_t)farthest + RATE_MAX - 1) / RATE_MAX);
         close_slot();
-        go(&(way_t){.target = target, .due = ticks * TICK_ONE});
+        go(&(way_t){.target = target, .due = ticks * PACE_TICK});
     }
     open_slot()->flags |= SEGMENT_MAY_END;
     writer.late = 0;
@@ -399,8 +311,8 @@ SEPARATE static void arrive(const int64_t target[AXIS_COUNT]) {
 
 void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t change,
                          bool at_rest) {
-    int32_t due = (int32_t)(uint32_t)(ticks * (float)TICK_ONE) + writer.late;
-    if (due < TICK_ONE && !at_rest) {
+    int32_t due = (int32_t)(uint32_t)(ticks * (float)PACE_TICK) + writer.late;
+    if (due < PACE_TICK && !at_rest) {
         writer.late = due; // less than a tick: the next one goes this way, too
         return;
     }
@@ -409,7 +321,7 @@ void segment_writer_move(const int64_t target[AXIS_COUNT], float ticks, int32_t 
     if (turning != 0) {
         turn(&way, turning);
     }
-    writer.late = way.due - (int32_t)open_slot()->ticks * TICK_ONE;
+    writer.late = way.due - (int32_t)open_slot()->ticks * PACE_TICK;
     if (at_rest) {
         arrive(target);
     }
