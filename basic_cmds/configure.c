@@ -193,6 +193,11 @@ err_t configure_spindle(const basic_arg_t *args, size_t count) {
     return stepper_spindle(&config);
 }
 
+err_t configure_laser(const basic_arg_t *args, size_t count) {
+    (void)count;
+    return stepper_laser(args[0].integer != 0);
+}
+
 err_t configure_coolant(const basic_arg_t *args, size_t count) {
     (void)count;
     stepper_coolant_t config = {

@@ -13,6 +13,7 @@ err_t configure_reset(const basic_arg_t *args, size_t count);
 err_t configure_arc(const basic_arg_t *args, size_t count);
 err_t configure_limits(const basic_arg_t *args, size_t count);
 err_t configure_spindle(const basic_arg_t *args, size_t count);
+err_t configure_laser(const basic_arg_t *args, size_t count);
 err_t configure_coolant(const basic_arg_t *args, size_t count);
 err_t configure_junction(const basic_arg_t *args, size_t count);
 err_t configure_scurve(const basic_arg_t *args, size_t count);

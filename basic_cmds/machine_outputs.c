@@ -5,6 +5,12 @@
 #include "gcode/gcode.h"
 #include "stepper/stepper_outputs.h"
 
+static const char *const laser_modes[] = {
+    [STEPPER_SPINDLE_OFF] = "M5",
+    [STEPPER_SPINDLE_CW] = "M3",
+    [STEPPER_SPINDLE_CCW] = "M4",
+};
+
 void machine_outputs_report(void) {
     stepper_outputs_t outputs;
     stepper_outputs(&outputs);
@@ -15,11 +21,13 @@ void machine_outputs_report(void) {
         basic_printf(" %.0f rpm of %.0f to %.0f, PWM %g Hz", outputs.rpm, spindle->min_rpm,
                      spindle->max_rpm, spindle->pwm_hz);
     }
-    if (spindle->dir_gpio != PINS_NONE) {
+    if (outputs.laser) {
+        basic_printf(", laser %s", laser_modes[outputs.turn]);
+    } else if (spindle->dir_gpio != PINS_NONE) {
         basic_printf(", dir %s %s", pins_name(spindle->dir_gpio),
                      outputs.turn == STEPPER_SPINDLE_CCW ? "CCW" : "CW");
     }
-    if (spindle->spinup_ms > 0) {
+    if (spindle->spinup_ms > 0 && !outputs.laser) {
         basic_printf(", spin-up %u ms", (unsigned)spindle->spinup_ms);
     }
     basic_printf("\n");
@@ -38,7 +46,7 @@ err_t machine_outputs_peek_spindle(const basic_arg_t *args, size_t count, basic_
     stepper_outputs(&outputs);
     bool pwm = outputs.spindle.gpio != PINS_NONE && outputs.spindle.max_rpm > 0.0;
     double speed = pwm ? outputs.rpm : (double)outputs.spindle_on;
-    bool reverse = outputs.turn == STEPPER_SPINDLE_CCW && speed > 0.0;
+    bool reverse = !outputs.laser && outputs.turn == STEPPER_SPINDLE_CCW && speed > 0.0;
     *result = (basic_value_t){.type = BASIC_FLOAT, .number = reverse ? -speed : speed};
     return ERR_OK;
 }

@@ -99,7 +99,13 @@ static const basic_arg_spec_t spindle_args[SPINDLE_ARGS] = {
                         .max = STEPPER_SPINDLE_SPINUP_MS_MAX, .unit = "ms",
                         .help = "motion waits so long when the spindle starts or turns round"},
     [SPINDLE_DIR] = {"dir_pin", BASIC_ARG_PIN, OPTIONAL,
-                     .help = "low for M3, high for M4; without it M4 is an error"},
+                     .help = "low for M3, high for M4; without it only a laser has M4"},
+};
+
+static const basic_arg_spec_t laser_args[] = {
+    {"on", BASIC_ARG_INTEGER, .min = 0, .max = 1,
+     .help = "1: S is the power; M3 constant, M4 in proportion to the speed; the beam is off in G0 "
+             "and at standstill; 0: a spindle"},
 };
 
 static const basic_arg_spec_t coolant_args[COOLANT_ARGS] = {
@@ -154,6 +160,8 @@ static const basic_command_t commands[] = {
      .help = "Forgets all axes, pins but the E-STOP input, limits and settings"},
     {"STEPPER LIMITS", ARGS(limits_args), configure_limits, "Sets the soft limits of an axis"},
     {"STEPPER SPINDLE", ARGS(spindle_args), configure_spindle, "Sets the spindle output"},
+    {"STEPPER LASER", ARGS(laser_args), configure_laser,
+     "Says that the spindle output, with PWM, is a laser"},
     {"STEPPER COOLANT", ARGS(coolant_args), configure_coolant, "Sets the coolant outputs"},
     {"STEPPER JUNCTION", ARGS(junction_args), configure_junction, "Sets the junction deviation"},
     {"STEPPER SCURVE", ARGS(scurve_args), configure_scurve,

@@ -186,7 +186,8 @@ static bool feed_down(gcode_cycle_t *cycle, gcode_entry_t *entry) {
 
 static bool dwell(const gcode_cycle_t *cycle, gcode_entry_t *entry) {
     entry->kind = ENTRY_DWELL;
-    entry->dwell_ms = cycle->words.p;
+    entry->dwell.ms = cycle->words.p;
+    entry->dwell.lit = false;
     return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include "gcode/gcode.h"
 #include "gcode/gcode_file.h"
+#include "gcode/gcode_interpreter.h"
 #include "stepper/rules.h"
 #include "stepper/stepper_outputs.h"
 #include "stepper/stepper_safety.h"
@@ -117,6 +118,14 @@ static bool all_done(void) {
                                            : !gcode_busy() && stepper_active() <= 0;
 }
 
+// A file may end without M5. Where one was stopped the laser is off, or somebody else's.
+static void put_laser_out(void) {
+    if (job.result != GCODE_JOB_STOPPED && stepper_is_laser()) {
+        stepper_laser_off();
+        gcode_live.state.modal.spindle = STEPPER_SPINDLE_OFF;
+    }
+}
+
 err_t gcode_job_background(bool *more) {
     *more = false;
     if (job.phase == PHASE_IDLE) {
@@ -132,6 +141,7 @@ err_t gcode_job_background(bool *more) {
         int percent = gcode_job_percent();
         job.percent = job.result == GCODE_JOB_DONE ? 100 : percent;
         job.phase = PHASE_IDLE;
+        put_laser_out();
     }
     *more = can_feed();
     return err;

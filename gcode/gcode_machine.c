@@ -115,7 +115,8 @@ static err_t push(const gcode_entry_t *entry) {
     case ENTRY_PROBE:
         return stepper_probe(&entry->arc.move, !entry->probe.toward, entry->probe.error_if_none);
     case ENTRY_DWELL:
-        return stepper_dwell(entry->dwell_ms);
+        return entry->dwell.lit ? stepper_laser_dwell(entry->dwell.ms)
+                                : stepper_dwell(entry->dwell.ms);
     case ENTRY_SPINDLE:
         return stepper_spindle_switch(entry->spindle.turn, entry->spindle.rpm);
     case ENTRY_COOLANT:

@@ -224,7 +224,8 @@ static err_t make(step_t step, const gcode_plan_t *plan, const gcode_state_t *st
         break;
     case STEP_DWELL:
         entry->kind = ENTRY_DWELL;
-        entry->dwell_ms = line->value[WORD_P];
+        entry->dwell.ms = line->value[WORD_P];
+        entry->dwell.lit = modal->motion >= MOTION_FEED && modal->motion <= MOTION_ARC_CCW;
         break;
     case STEP_HOME:
         entry->kind = ENTRY_HOME;

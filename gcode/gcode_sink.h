@@ -10,7 +10,7 @@ typedef enum {
     ENTRY_MOVE,    // arc.move
     ENTRY_ARC,     // arc
     ENTRY_PROBE,   // arc.move, probe
-    ENTRY_DWELL,   // dwell_ms
+    ENTRY_DWELL,   // dwell
     ENTRY_SPINDLE, // spindle
     ENTRY_COOLANT, // coolant
     ENTRY_PAUSE,   // tool: the one to change to, GCODE_NO_TOOL for M0 and M1
@@ -26,7 +26,10 @@ typedef struct {
             bool toward;        // until contact; else until there is none
             bool error_if_none; // the end of the way without it is an error
         } probe;
-        double dwell_ms;
+        struct {
+            double ms;
+            bool lit; // a laser of constant power goes on
+        } dwell;
         struct {
             stepper_turn_t turn;
             double rpm;

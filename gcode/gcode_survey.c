@@ -136,7 +136,9 @@ static void switch_spindle(stepper_turn_t turn, double rpm) {
     stepper_turn_t turning = turns ? turn : STEPPER_SPINDLE_OFF;
     bool starts = turning != STEPPER_SPINDLE_OFF && turning != survey->turning;
     double seconds = starts ? (double)outputs.spindle.spinup_ms / MS_PER_S : 0.0;
-    stepper_estimate_pause(&survey->estimate, seconds);
+    if (!outputs.laser) {
+        stepper_estimate_pause(&survey->estimate, seconds);
+    }
     survey->turning = turning;
     survey->spindle = turn;
 }
@@ -167,7 +169,7 @@ static err_t push(const gcode_entry_t *entry) {
         stepper_estimate_pause(&survey->estimate, 0.0);
         break;
     case ENTRY_DWELL:
-        stepper_estimate_pause(&survey->estimate, entry->dwell_ms / MS_PER_S);
+        stepper_estimate_pause(&survey->estimate, entry->dwell.ms / MS_PER_S);
         break;
     case ENTRY_SPINDLE:
         switch_spindle(entry->spindle.turn, entry->spindle.rpm);

@@ -7,6 +7,7 @@
 #include "stepper/governor.h"
 #include "stepper/limits.h"
 #include "stepper/machine.h"
+#include "stepper/outputs.h"
 #include "stepper/rules.h"
 #include "stepper/stepper_homing.h"
 
@@ -50,7 +51,7 @@ static void follow_trip(void) {
     }
     machine.alarm = true;
     state.ends_seen = governor_ends();
-    state.drops++;
+    alarm_count_drop();
 }
 
 void alarm_follow(void) {
@@ -147,6 +148,7 @@ void alarm_look(void) {
 }
 
 void alarm_count_drop(void) {
+    outputs_forget_beam();
     state.drops++;
 }
 

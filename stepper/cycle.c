@@ -146,7 +146,7 @@ uint32_t cycle_moved(int32_t steps[AXIS_COUNT]) {
 }
 
 void cycle_settle(void) {
-    moves_push_dwell(SETTLE_TICKS);
+    moves_push_dwell(SETTLE_TICKS, false);
     hal_governor_request();
 }
 

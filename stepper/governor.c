@@ -67,6 +67,7 @@ static void follow_motors(void) {
 static void drop_blocks(void) {
     stand();
     governor.stopping = false;
+    outputs_end_stop();
     travel_stand();
     planner_release_all();
     segment_writer_settle();
@@ -85,6 +86,9 @@ static void begin_block(const block_t *block) {
     if (block_is_move(block)) {
         set_off();
         governor.standing = false;
+    }
+    if (block_has_level(block)) {
+        outputs_enter(block); // also after a hold, in which a laser is off
     }
     if (governor.begun) {
         return;
@@ -156,6 +160,11 @@ static bool advance(uint32_t slice_ticks) {
         drop_blocks();
         return true;
     }
+    bool waits = front == NULL || (governor.holding && travel_speed() <= 0.0f);
+    if (waits && outputs_put_out()) {
+        segment_writer_wait(1, 0, 0);
+        return true;
+    }
     bool wanted = front != NULL || jog_active() || !governor.idle_off;
     if (wanted != governor.drivers_on) {
         switch_drivers(wanted);
@@ -171,7 +180,7 @@ static bool advance(uint32_t slice_ticks) {
         }
         return true;
     }
-    if (front == NULL || (governor.holding && travel_speed() <= 0.0f)) {
+    if (waits) {
         return false;
     }
     if (governor.standing) {
@@ -339,6 +348,9 @@ void governor_stop(void) {
     } else {
         governor.stopping = governor_working();
         travel_choose_again();
+        if (governor.stopping) {
+            outputs_begin_stop();
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 #include "stepper/governor.h"
 #include "stepper/lines.h"
 #include "stepper/outputs.h"
+#include "stepper/stepper_homing.h"
 
 // A line, its blend and the next line, and one to spare.
 #define BLEND_RING_MIN 4u
@@ -47,6 +48,13 @@ static void push_block(void) {
     hal_governor_unlock();
 }
 
+// A laser burns in moves at a feed only, and not in those of homing and probing.
+static __attribute__((noinline)) void set_beam(block_t *block) {
+    bool burns = block->move.feed > 0.0f && stepper_cycle() == STEPPER_CYCLE_NONE;
+    block->level = burns ? outputs.level : 0;
+    block->dims = burns && outputs.turn == STEPPER_SPINDLE_CCW;
+}
+
 static void fill_move(block_t *block, const geometry_t *g, float corner2,
                       const int32_t target_steps[AXIS_COUNT]) {
     block->line = lines_code();
@@ -58,6 +66,9 @@ static void fill_move(block_t *block, const geometry_t *g, float corner2,
     block->move.acceleration = g->acceleration;
     block->move.jerk = g->jerk;
     block->move.corner = planner_v2_code(corner2);
+    if (outputs.laser) {
+        set_beam(block);
+    }
 }
 
 // ---- Blends -------------------------------------------------------------------------------------
@@ -117,6 +128,12 @@ static bool shorten(uint32_t lead) {
     return true;
 }
 
+// A corner is burnt by the weaker of both lines, so not at all next to a rapid one.
+static void dim_blend(block_t *blend, const block_t *line) {
+    uint16_t before = planner_newest()->level;
+    blend->level = before < line->level ? before : line->level;
+}
+
 // Rounds the corner to the new line `g` off: a block for the parabola and one for what is left of
 // the line. False if that is not possible or no use.
 static bool push_blended(const geometry_t *g, const stepper_move_t *move,
@@ -135,6 +152,9 @@ static bool push_blended(const geometry_t *g, const stepper_move_t *move,
     fill_move(line, g, FLT_MAX, target_steps);
     line->move.line.lead_in = geometry_fraction(g, reach);
     line->move.length = geometry_part(g, line->move.line.lead_in, 0);
+    if (outputs.laser) {
+        dim_blend(blend, line);
+    }
     planner_find_caps(2);
     hal_governor_lock();
     bool done = shorten(geometry_fraction(&moves.last, reach));
@@ -218,13 +238,19 @@ static void push_standing(void) {
     push_block();
 }
 
-void moves_push_dwell(uint32_t ticks) {
-    *planner_free_slot(0) = (block_t){.kind = BLOCK_DWELL, .dwell_ticks = ticks};
+void moves_push_dwell(uint32_t ticks, bool lit) {
+    bool dark = outputs.laser && !(lit && outputs.turn == STEPPER_SPINDLE_CW);
+    *planner_free_slot(0) = (block_t){
+        .kind = BLOCK_DWELL,
+        .level = dark ? 0 : outputs.level,
+        .dwell_ticks = ticks,
+    };
     push_standing();
 }
 
 void moves_push_pins(const block_pins_t *pins) {
-    *planner_free_slot(0) = (block_t){.kind = BLOCK_PINS, .level = outputs.level, .pins = *pins};
+    uint16_t level = outputs.laser ? 0 : outputs.level;
+    *planner_free_slot(0) = (block_t){.kind = BLOCK_PINS, .level = level, .pins = *pins};
     push_standing();
 }
 

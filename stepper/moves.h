@@ -20,7 +20,8 @@ bool moves_push_line(const stepper_move_t *move, const int32_t target_steps[AXIS
 typedef struct arc arc_t; // stepper/arc.h
 bool moves_push_arc(const arc_t *arc, const stepper_move_t *move,
                     const int32_t target_steps[AXIS_COUNT]);
-void moves_push_dwell(uint32_t ticks);
+// `lit`: a laser's beam goes on in it, as far as it does not dim.
+void moves_push_dwell(uint32_t ticks, bool lit);
 void moves_push_pins(const block_pins_t *pins);
 void moves_push_pause(void);
 

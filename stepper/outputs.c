@@ -31,19 +31,85 @@ bool outputs_coolant_on(uint8_t gpio) {
     return mask != 0 && ((hal_pins_read() & mask) != 0) != outputs.coolant.invert;
 }
 
+// What a laser is to do is not known from its beam, which is off when nothing moves.
 void outputs_follow(void) {
-    outputs.turn = outputs.turn_now;
-    outputs.level = segment_writer_level();
+    if (!outputs.laser) {
+        outputs.turn = outputs.turn_now;
+        outputs.level = segment_writer_level();
+    }
 }
 
-void outputs_begin(const block_t *block) {
-    outputs.turn_now = block->pins.turn;
+static void connect_pwm(void) {
     if (outputs.counts != 0 && !outputs.pwm_connected) {
         hal_pin_pwm(outputs.spindle.gpio);
         outputs.pwm_connected = true;
     }
+}
+
+void outputs_begin(const block_t *block) {
+    outputs.turn_now = block->pins.turn;
+    connect_pwm();
     segment_writer_set_level(block->level);
 }
+
+// ---- A laser's beam -----------------------------------------------------------------------------
+
+void outputs_forget_beam(void) {
+    if (outputs.laser) {
+        outputs.turn = STEPPER_SPINDLE_OFF;
+        outputs.level = 0;
+    }
+}
+
+static __attribute__((noinline)) void enter_with_laser(const block_t *block) {
+    outputs.dims = !outputs.dark && block_is_move(block) && block->dims;
+    if (outputs.dims) {
+        outputs.most = block->level;
+        outputs.level_per_speed = (float)block->level / block->move.feed;
+    }
+    segment_writer_set_level(outputs.dark ? 0 : block->level);
+    if (block->level > 0) {
+        outputs.lit = true;
+        connect_pwm();
+    }
+}
+
+void outputs_enter(const block_t *block) {
+    if (outputs.laser) {
+        enter_with_laser(block);
+    } else {
+        segment_writer_set_level(block->level);
+    }
+}
+
+void outputs_follow_speed(float speed) {
+    float level = speed * outputs.level_per_speed + 0.5f;
+    segment_writer_set_level(level < (float)outputs.most ? (uint16_t)level : outputs.most);
+}
+
+bool outputs_put_out(void) {
+    if (!outputs.lit) {
+        return false;
+    }
+    outputs.lit = false;
+    outputs.dims = false;
+    segment_writer_set_level(0);
+    return true;
+}
+
+void outputs_begin_stop(void) {
+    if (outputs.laser) {
+        outputs.dark = true;
+        outputs.dims = false;
+        segment_writer_set_level(0);
+    }
+}
+
+void outputs_end_stop(void) {
+    outputs.dark = false;
+}
+
+// ---- Off at once --------------------------------------------------------------------------------
 
 static void drive(uint32_t mask, bool high) {
     hal_pins_set(high ? mask : 0);
@@ -61,6 +127,8 @@ static void forget_period(unsigned slice) {
 
 void outputs_spindle_off(void) {
     outputs.turn_now = STEPPER_SPINDLE_OFF;
+    outputs.lit = false;
+    outputs.dims = false;
     segment_writer_set_level(0);
     if (outputs.pwm_connected) {
         outputs.pwm_connected = false;

@@ -13,16 +13,26 @@ typedef struct {
     stepper_coolant_t coolant;
     uint32_t counts;             // of a PWM period; 0: no PWM
     uint8_t limited;             // a speed above the greatest was asked for; OUTPUTS_...
+    bool laser;                  // the spindle is one, with a beam that is off at standstill
     uint8_t turn;                // behind the newest entry
     uint16_t level;              // counts of the PWM period; of all moves that are queued now
     volatile uint8_t turn_now;   // as executed; governor
     volatile bool pwm_connected; // the pin shows the slice; governor
+    // Of a laser; governor.
+    bool lit;              // the beam may be on in what was written last
+    bool dark;             // it is stopping, so no move lights the beam again
+    bool dims;             // what is executed has a level that follows the speed
+    uint16_t most;         // that level
+    float level_per_speed; // in units/s
 } outputs_t;
 
 extern outputs_t outputs;
 
 // Which level makes this speed; 0 without PWM.
 uint16_t outputs_level(double rpm);
+
+// No beam for what is queued from now on, as M5 has it. Nothing if there is no laser.
+void outputs_forget_beam(void);
 
 // Gives all their pins back. Nothing moves.
 void outputs_take_away(void);
@@ -35,6 +45,21 @@ void outputs_follow(void);
 
 // A block of switches is executed from now on. Context: governor.
 void outputs_begin(const block_t *block);
+
+// A move or a dwell is, or goes on after a hold. Context: governor.
+void outputs_enter(const block_t *block);
+
+// While outputs.dims: what is written next goes at this speed. Context: governor.
+void outputs_follow_speed(float speed);
+
+// There is a laser, and its beam may be on in what was written last; then what is written next has
+// it off. Context: governor.
+bool outputs_put_out(void);
+
+// A controlled stop has begun: a laser's beam is off from now on, until that has ended. Contexts:
+// governor, main with the governor locked.
+void outputs_begin_stop(void);
+void outputs_end_stop(void);
 
 // Off at once; nothing is being executed any more. Contexts: governor, main with the governor
 // locked.

@@ -39,7 +39,8 @@ typedef struct {
 
 // Lengths and speeds along a move count all four axes, in units (mm and degrees) and units/s.
 typedef struct {
-    block_kind_t kind : 4;
+    block_kind_t kind : 3;
+    bool dims : 1;      // a laser's level follows the speed; moves
     uint32_t plane : 3; // of an arc: arc_plane_of()
     bool binds : 1;     // its entry cap is below what the block before it may do anyway
     uint8_t span_jerk;  // limits between the binding entry before this one and here
@@ -47,7 +48,7 @@ typedef struct {
     uint32_t way;   // where it begins along the path
     uint64_t climb; // v2_t that all moves before it can gain: the sum of 2 * acceleration * length
     uint16_t line;  // lines_code()
-    uint16_t level; // of the spindle's PWM from its beginning on; moves and BLOCK_PINS
+    uint16_t level; // of the spindle's PWM from its beginning on; all but BLOCK_PAUSE
     union {
         struct {
             int32_t target[AXIS_COUNT]; // steps, where the move ends as it was programmed
@@ -129,6 +130,11 @@ float planner_top_speed(const block_t *move);
 
 static inline bool block_is_move(const block_t *block) {
     return block->kind <= BLOCK_BLEND;
+}
+
+// One whose level is in force while it is executed, and not only where it begins.
+static inline bool block_has_level(const block_t *block) {
+    return block->kind <= BLOCK_DWELL;
 }
 
 // ---- For new blocks, in moves.c. Context: main --------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include "hal/hal_io.h"
 #include "hal/slices.h"
+#include "stepper/alarm.h"
 #include "stepper/governor.h"
 #include "stepper/lines.h"
 #include "stepper/moves.h"
@@ -61,6 +62,9 @@ static err_t check_spindle(const stepper_spindle_t *config, hal_pwm_t *pwm) {
     if (config->gpio == PINS_NONE) {
         return ERR_OK;
     }
+    if (outputs.laser && config->max_rpm <= 0.0) {
+        return err_raise(ERR_LASER_PWM, NULL);
+    }
     if (config->min_rpm > config->max_rpm) {
         return err_raise(ERR_SPINDLE_RANGE, NULL);
     }
@@ -97,8 +101,10 @@ static void use_spindle(const stepper_spindle_t *config, hal_pwm_t *pwm) {
     make_output(config->dir_gpio, false);
     hal_governor_lock();
     outputs.spindle = *config;
+    outputs.laser = outputs.laser && slice < HAL_PWM_SLICES;
     outputs.counts = 0;
     hal_governor_unlock();
+    outputs_forget_beam();
     outputs.limited = OUTPUTS_NOT_LIMITED;
     if (slice < HAL_PWM_SLICES) {
         start_slice(slice, pwm, config);
@@ -140,7 +146,7 @@ err_t stepper_spindle_check(stepper_turn_t turn) {
     if (outputs.spindle.gpio == PINS_NONE) {
         return err_raise(ERR_NO_SPINDLE_PIN, NULL);
     }
-    if (turn == STEPPER_SPINDLE_CCW && outputs.spindle.dir_gpio == PINS_NONE) {
+    if (turn == STEPPER_SPINDLE_CCW && !outputs.laser && outputs.spindle.dir_gpio == PINS_NONE) {
         return err_raise(ERR_NO_SPINDLE_DIR, NULL);
     }
     return ERR_OK;
@@ -166,6 +172,11 @@ err_t stepper_spindle_switch(stepper_turn_t turn, double rpm) {
     const stepper_spindle_t *spindle = &outputs.spindle;
     bool on = turn != STEPPER_SPINDLE_OFF;
     uint16_t level = on ? outputs_level(rpm) : 0;
+    if (outputs.laser) { // each move says for itself what the beam does
+        outputs.turn = (uint8_t)turn;
+        outputs.level = level;
+        return ERR_OK;
+    }
     bool starts =
         turns(turn, level) && (turn != outputs.turn || !turns(outputs.turn, outputs.level));
     block_pins_t pins = {
@@ -183,6 +194,32 @@ err_t stepper_spindle_switch(stepper_turn_t turn, double rpm) {
     moves_push_pins(&pins);
     hal_governor_request();
     return ERR_OK;
+}
+
+err_t stepper_laser(bool on) {
+    err_t err = rules_check(RULES_DO_PINS);
+    if (err == ERR_OK && on && outputs.counts == 0) {
+        err = err_raise(ERR_LASER_PWM, NULL);
+    }
+    if (err != ERR_OK) {
+        return err;
+    }
+    hal_governor_lock();
+    outputs_spindle_off();
+    outputs.laser = on;
+    outputs.turn = STEPPER_SPINDLE_OFF;
+    outputs.level = 0;
+    hal_governor_unlock();
+    alarm_count_drop(); // G-code follows what is off now
+    return ERR_OK;
+}
+
+bool stepper_is_laser(void) {
+    return outputs.laser;
+}
+
+void stepper_laser_off(void) {
+    outputs_forget_beam();
 }
 
 bool stepper_spindle_limited(void) {
@@ -279,7 +316,8 @@ void stepper_outputs(stepper_outputs_t *report) {
     bool high = (hal_pins_read() & mask) != 0;
     *report = (stepper_outputs_t){
         .spindle = *spindle,
-        .turn = (stepper_turn_t)outputs.turn_now,
+        .laser = outputs.laser,
+        .turn = (stepper_turn_t)(outputs.laser ? outputs.turn : outputs.turn_now),
         .rpm = outputs.counts > 0 ? level * spindle->max_rpm / outputs.counts : 0.0,
         .spindle_on = outputs.counts > 0 ? level > 0 : mask != 0 && high != spindle->invert,
         .coolant = outputs.coolant,

@@ -26,7 +26,7 @@ typedef struct {
 
 // Sets the spindle up, switched off, or takes it away. With PWM the pin's whole slice belongs to
 // it. A refused call changes nothing. Errors: not initialised, moving or queued, pins or slice
-// taken, one pin twice, a frequency that the board cannot make, min above max.
+// taken, one pin twice, a frequency that the board cannot make, min above max, no PWM for a laser.
 err_t stepper_spindle(const stepper_spindle_t *config);
 
 typedef enum { STEPPER_SPINDLE_OFF, STEPPER_SPINDLE_CW, STEPPER_SPINDLE_CCW } stepper_turn_t;
@@ -40,6 +40,23 @@ err_t stepper_spindle_switch(stepper_turn_t turn, double rpm);
 
 // Whether stepper_spindle_switch() would be refused because of the spindle's pins; raises it.
 err_t stepper_spindle_check(stepper_turn_t turn);
+
+// The spindle output is a laser, or no longer; it is off then and in both cases until the next
+// stepper_spindle_switch(). That one is no entry of the queue then, it counts for the moves queued
+// from now on: CW is constant power; CCW power in proportion to the speed along the path, of which
+// the programmed feed has all; no direction pin and no spin-up are needed. The beam is off in rapid
+// moves, jogs, homing and probing, and when nothing moves. It also stays off, as if OFF had been
+// asked for, after whatever drops the queue, and in a controlled stop from its beginning on.
+// stepper_close(), and a spindle that is taken away, end this. Errors: not initialised, moving or
+// queued, the spindle has no PWM.
+err_t stepper_laser(bool on);
+bool stepper_is_laser(void);
+
+// As stepper_spindle_switch() to OFF, but never refused. Nothing if there is no laser.
+void stepper_laser_off(void);
+
+// As stepper_dwell(), but a laser of constant power stays on in it as it was switched.
+err_t stepper_laser_dwell(double milliseconds);
 
 // True once after a speed above max_rpm was asked for since the spindle was set up.
 bool stepper_spindle_limited(void);
@@ -83,7 +100,8 @@ uint32_t stepper_line(void);
 
 typedef struct {
     stepper_spindle_t spindle;
-    stepper_turn_t turn; // as of the last switch that was carried out
+    bool laser;
+    stepper_turn_t turn; // as of the last switch that was carried out; of a laser: queued
     double rpm;          // now; without PWM 0
     bool spindle_on;     // the output is on, with PWM at a speed above 0
     stepper_coolant_t coolant;

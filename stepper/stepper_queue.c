@@ -61,7 +61,7 @@ static void set_spindle(const stepper_move_t *move) {
 }
 
 static void push_level(uint16_t before) {
-    if (outputs.level != before) {
+    if (outputs.level != before && !outputs.laser) {
         moves_push_pins(&(block_pins_t){.turn = outputs.turn});
     }
 }
@@ -163,13 +163,21 @@ err_t stepper_arc_way(const double from[AXIS_COUNT], const stepper_arc_t *wanted
     return err;
 }
 
-err_t stepper_dwell(double milliseconds) {
+static err_t dwell(double milliseconds, bool lit) {
     err_t err = rules_check(RULES_DO_ENTRY);
     if (err == ERR_OK) {
-        moves_push_dwell((uint32_t)ceil(milliseconds * TICKS_PER_MS));
+        moves_push_dwell((uint32_t)ceil(milliseconds * TICKS_PER_MS), lit);
         hal_governor_request();
     }
     return err;
+}
+
+err_t stepper_dwell(double milliseconds) {
+    return dwell(milliseconds, false);
+}
+
+err_t stepper_laser_dwell(double milliseconds) {
+    return dwell(milliseconds, true);
 }
 
 void stepper_target(double target[AXIS_COUNT]) {

@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "stepper/extremes.h"
+#include "stepper/outputs.h"
 #include "stepper/path.h"
 #include "stepper/profile.h"
 #include "stepper/scurve.h"
@@ -62,6 +63,9 @@ static void go_on(float ticks, float end_speed) {
 
 static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
     int32_t change = segment_writer_change(travel.pending_from, travel.speed);
+    if (outputs.dims) {
+        outputs_follow_speed(0.5f * (travel.pending_from + travel.speed));
+    }
     segment_writer_move(target, travel.pending_ticks, change, at_rest);
     travel.pending_ticks = 0.0f;
 }
@@ -82,7 +86,7 @@ void travel_stand(void) {
 
 void travel_begin(const block_t *block) {
     travel.block = block;
-    segment_writer_set_level(block->level);
+    outputs_enter(block);
     travel.progress = 0;
     travel.per_length = PROGRESS_ONE / block->move.length;
     travel.length_part = block->move.length / PROGRESS_ONE;

@@ -105,6 +105,7 @@ STEPPER ENABLE X,0                        N x . R R B B B B B B B H B p . . . R
 STEPPER RESET                             N . . . . B B B B B B B H B p . . . .
 STEPPER LIMITS X,-500,500                 N x . . . B B B B B B B H B p . . . .
 STEPPER SPINDLE GP14                      N . . . . B B B B B B B H B p . . . .
+STEPPER LASER 0                           N . . . . B B B B B B B H B p . . . .
 STEPPER COOLANT GP15                      N . . . . B B B B B B B H B p . . . .
 STEPPER PROBE GP26                        N . . . . B B B B B B B H B p . . . .
 STEPPER HWLIMITS GP16,GP17,GP18           N . . . . B B B B B B B H B p . . . .

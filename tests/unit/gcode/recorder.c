@@ -68,7 +68,7 @@ static void note_entry(const gcode_entry_t *entry) {
         note_move(&entry->arc.move);
         break;
     case ENTRY_DWELL:
-        note("dwell %.9g", entry->dwell_ms);
+        note(entry->dwell.lit ? "dwell %.9g lit" : "dwell %.9g", entry->dwell.ms);
         break;
     case ENTRY_SPINDLE:
         note("spindle %s %.9g", turns[entry->spindle.turn], entry->spindle.rpm);

@@ -51,7 +51,7 @@ static err_t push(const gcode_entry_t *entry) {
     sink.count++;
     const double *to = entry->arc.move.target;
     if (entry->kind == ENTRY_DWELL) {
-        note("wait %g;", entry->dwell_ms, 0, 0);
+        note("wait %g;", entry->dwell.ms, 0, 0);
         return ERR_OK;
     }
     memcpy(sink.place, to, sizeof sink.place);
