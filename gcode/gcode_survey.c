@@ -7,6 +7,7 @@
 
 #include "gcode/gcode_file.h"
 #include "gcode/gcode_interpreter.h"
+#include "stepper/stepper_check.h"
 #include "stepper/stepper_estimate.h"
 #include "stepper/stepper_homing.h"
 #include "stepper/stepper_outputs.h"
@@ -41,15 +42,9 @@ static void follow_axis(axis_id_t axis, double low, double high) {
     uint32_t bit = 1u << axis;
     extend(&survey->way[axis], (survey->line_axes & bit) == 0, low, high);
     survey->line_axes |= bit;
-    double min, max, step;
-    stepper_axis_t config;
-    if (survey->report->beyond_line == 0 && stepper_axis_limits(axis, &min, &max) &&
-        stepper_axis_config(axis, &config)) {
-        step = 0.5 / config.steps_per_unit; // as for moves that are queued
-        if (low < min - step || high > max + step) {
-            survey->report->beyond_line = survey->file.line;
-            survey->report->beyond_axis = axis;
-        }
+    if (survey->report->beyond_line == 0 && stepper_is_beyond(axis, low, high)) {
+        survey->report->beyond_line = survey->file.line;
+        survey->report->beyond_axis = axis;
     }
 }
 

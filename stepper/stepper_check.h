@@ -9,6 +9,9 @@
 // Error: the axis is not configured.
 err_t stepper_check_axis(axis_id_t axis);
 
+// Whether the way from `low` to `high` exceeds the soft limits of a configured axis.
+bool stepper_is_beyond(axis_id_t axis, double low, double high);
+
 // Errors of stepper_move() and stepper_arc() from `from`, except that there is no room.
 err_t stepper_check_line(const double from[AXIS_COUNT], const stepper_move_t *move);
 err_t stepper_check_arc(const double from[AXIS_COUNT], const stepper_arc_t *arc);

@@ -19,10 +19,14 @@ err_t stepper_check_axis(axis_id_t axis) {
 }
 
 // Half a step of tolerance: a limit that is no whole step must not refuse its own value.
-static err_t check_reach(axis_id_t axis, double low, double high) {
+bool stepper_is_beyond(axis_id_t axis, double low, double high) {
     double tolerance = 0.5 / axes[axis].config.steps_per_unit;
-    if (axes[axis].limited &&
-        (low < axes[axis].min - tolerance || high > axes[axis].max + tolerance)) {
+    return axes[axis].limited &&
+           (low < axes[axis].min - tolerance || high > axes[axis].max + tolerance);
+}
+
+static err_t check_reach(axis_id_t axis, double low, double high) {
+    if (stepper_is_beyond(axis, low, high)) {
         return err_raise(ERR_SOFT_LIMIT, "%c", STEPPER_AXIS_LETTERS[axis]);
     }
     int32_t steps;

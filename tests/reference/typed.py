@@ -156,6 +156,20 @@ def error_of(answer: str) -> str:
     return found[1] if found else ""
 
 
+def _run(arguments: list[str | Path], keys: str, code: int | None) -> str:
+    """Run the host program, `keys` typed; return what it printed, without carriage returns."""
+    done = subprocess.run(
+        [STEPMITE, "--virtual", *arguments],
+        input=keys.encode(),
+        capture_output=True,
+        timeout=DEADLINE_S,
+        check=False,
+    )
+    output = done.stdout.decode(errors="replace").replace("\r", "")
+    assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
+    return output
+
+
 def typed(
     folder: Path,
     *lines: str,
@@ -166,17 +180,9 @@ def typed(
     """Type the lines one after the other; `events` happen at their times."""
     trace, machine = folder / "edges.csv", folder / "machine.txt"
     machine.write_text("".join(row + "\n" for row in machine_rows(switches)))
-    inputs = write_events(folder / "events.csv", events)
     text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
-    done = subprocess.run(
-        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs, "--machine", machine],
-        input=text.encode(),
-        capture_output=True,
-        timeout=DEADLINE_S,
-        check=False,
-    )
-    output = done.stdout.decode(errors="replace").replace("\r", "")
-    assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
+    inputs = write_events(folder / "events.csv", events)
+    output = _run(["--trace", trace, "--inputs", inputs, "--machine", machine], text, code)
     answers, times, shown = [], [], output
     for i, line in enumerate(lines):
         found = re.search(rf'^> \?"<{i}>";TIMER\n<{i}> ([\d.e+]+)\n', shown, re.MULTILINE)
@@ -206,14 +212,6 @@ def program(
     source, trace = folder / "program.bas", folder / "edges.csv"
     source.write_text(text)
     inputs = write_events(folder / "events.csv", events)
-    done = subprocess.run(
-        [STEPMITE, "--virtual", "--trace", trace, "--inputs", inputs, source],
-        input=keys.encode(),
-        capture_output=True,
-        timeout=DEADLINE_S,
-        check=False,
-    )
-    output = done.stdout.decode(errors="replace").replace("\r", "")
-    assert code is None or done.returncode == code, output[-2000:] + done.stderr.decode()
+    output = _run(["--trace", trace, "--inputs", inputs, source], keys, code)
     _, _, printed = output.partition("\n\n")  # behind the banner
     return Session([printed.rstrip("\n")], [0.0], Edges.read(trace), output)
