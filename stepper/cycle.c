@@ -15,6 +15,7 @@
 
 static struct {
     stepper_cycle_t kind;
+    bool moves;     // its own moves have begun
     bool stopped;   // somebody asked for a stop
     bool was_armed; // when it began
 
@@ -56,6 +57,10 @@ void cycle_forget(void) {
     cycle.last = STEPPER_CYCLE_NONE;
 }
 
+bool cycle_moves(void) {
+    return cycle.moves;
+}
+
 void cycle_stop(void) {
     cycle.stopped = true;
 }
@@ -78,6 +83,10 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm) {
     hal_governor_unlock();
     kinds[cycle.kind].end(why == CYCLE_DONE);
     cycle.kind = STEPPER_CYCLE_NONE;
+    if (cycle.moves) {
+        cycle.moves = false;
+        machine_pass_override_on();
+    }
     if (!governor_armed()) {
         return;
     }
@@ -107,6 +116,10 @@ void stepper_background(void) {
     }
     machine_follow_stops();
     if (cycle.kind != STEPPER_CYCLE_NONE && !governor_working() && !machine_stopping()) {
+        if (!cycle.moves) {
+            cycle.moves = true;
+            machine_pass_override_on();
+        }
         kinds[cycle.kind].advance();
     }
 }
@@ -115,7 +128,7 @@ void stepper_background(void) {
 
 void cycle_move(const int32_t target[AXIS_COUNT], double feed, const cycle_until_t *until) {
     stepper_move_t move = {
-        .feed = feed * 100.0 / machine.feed_override,
+        .feed = feed,
         .corner = STEPPER_CORNER_STOP,
     };
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {

@@ -33,6 +33,9 @@ void cycle_stop(void);
 // Ends a cycle whose machine has been stopped, as soon as it stands.
 void cycle_follow(void);
 
+// What was queued before the cycle has been executed: all that moves is its own.
+bool cycle_moves(void);
+
 // INIT and CLOSE: no cycle, and none before.
 void cycle_forget(void);
 

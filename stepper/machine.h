@@ -55,6 +55,9 @@ void machine_pass_pins_on(void);
 // The same for what leaves the drivers on, in motion as well.
 void machine_pass_keep_on(void);
 
+// Makes the overrides count for what is queued; the moves of a cycle have none.
+void machine_pass_override_on(void);
+
 // Controlled stop, and waits until the machine stands.
 void machine_stop_and_wait(void);
 

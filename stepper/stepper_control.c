@@ -81,21 +81,26 @@ err_t stepper_hold(bool hold) {
     return err;
 }
 
+void machine_pass_override_on(void) {
+    planner_override_t override = {.feed = 1.0f, .rapid = 1.0f};
+    if (!cycle_moves()) {
+        override.feed = (float)machine.feed_override / 100.0f;
+        override.rapid = (float)machine.rapid_override / 100.0f;
+    }
+    if (ring_used(&blocks.ring) > REPLAN_BLOCKS) {
+        hal_governor_lock();
+        governor_fill(REPLAN_TICKS);
+        hal_governor_unlock();
+    }
+    planner_set_override(&override);
+}
+
 err_t stepper_override(int feed_percent, int rapid_percent) {
     err_t err = rules_check(RULES_DO_SETTING);
     if (err == ERR_OK) {
         machine.feed_override = feed_percent;
         machine.rapid_override = rapid_percent;
-        const planner_override_t override = {
-            .feed = (float)feed_percent / 100.0f,
-            .rapid = (float)rapid_percent / 100.0f,
-        };
-        if (ring_used(&blocks.ring) > REPLAN_BLOCKS) {
-            hal_governor_lock();
-            governor_fill(REPLAN_TICKS);
-            hal_governor_unlock();
-        }
-        planner_set_override(&override);
+        machine_pass_override_on();
     }
     return err;
 }

@@ -93,10 +93,16 @@ static void test_feeds_are_those_of_the_configuration_whatever_the_override(void
         TEST_ASSERT_EQUAL(ERR_OK, stepper_home(1u << AXIS_X));
         homing_bench_reach(AXIS_X, "approaching the switch", 300000);
         TEST_ASSERT_DOUBLE_WITHIN(1.0, 1200.0, stepper_speed());
+        TEST_ASSERT_EQUAL(ERR_OK, stepper_override(210 - percent, 100)); // nor what it becomes
+        bench_wait_us(100000);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0, 1200.0, stepper_speed());
         homing_bench_reach(AXIS_X, "approaching slowly", 300000);
         TEST_ASSERT_DOUBLE_WITHIN(0.1, 120.0, stepper_speed());
         TEST_ASSERT_EQUAL(ERR_OK, homing_bench_finish(20));
         check_x_home();
+        bench_move(20, 0, 0, 0, 1000); // it counts again
+        bench_wait_us(400000);
+        TEST_ASSERT_DOUBLE_WITHIN(1.0, 10.0 * (210 - percent), stepper_speed());
         bench_end();
     }
 }

@@ -317,6 +317,38 @@ static void test_a_feed_hold_waits_and_goes_on(void) {
     }
 }
 
+// The axis comes to its switch while it brakes for a hold, or a hold comes while it brakes for the
+// switch: it stays held in either case.
+static void test_a_hold_outlasts_the_switch(void) {
+    for (int before_us = -40000; before_us <= 60000; before_us += 20000) {
+        begin(4000);
+        homing_bench_reach(AXIS_X, "approaching the switch", 300000);
+        if (before_us > 0) {
+            TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(true));
+            bench_wait_us((unsigned)before_us);
+        }
+        host_pads_drive(x_min->gpio, false);
+        bench_wait_us(before_us > 0 ? 200 : 200 - (unsigned)before_us);
+        if (before_us <= 0) {
+            TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(true));
+        }
+        for (unsigned n = 0; n < 2000; n++) {
+            bench_wait_us(250);
+            stepper_background();
+        }
+        const uint64_t pulses = bench.motors[AXIS_X].pulses;
+        TEST_ASSERT_EQUAL(STEPPER_CYCLE_HOMING, stepper_cycle());
+        bench_wait_us(500000);
+        stepper_background();
+        TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
+        uint32_t axes;
+        TEST_ASSERT_EQUAL_STRING("approaching the switch", stepper_homing_phase(&axes));
+        stepper_stop();
+        host_pads_drive(x_min->gpio, true);
+        check_failure("Homing X stopped while approaching the switch", true);
+    }
+}
+
 static void test_close_in_every_phase_leaves_nothing_behind(void) {
     for (unsigned phase = 0; phase < COUNT_OF_ARRAY(phases); phase++) {
         begin_in(phase);
@@ -350,6 +382,7 @@ int main(void) {
         RUN_TEST(test_the_estop_input_ends_it_at_the_next_tick);
         RUN_TEST(test_another_limit_switch_trips);
         RUN_TEST(test_a_feed_hold_waits_and_goes_on);
+        RUN_TEST(test_a_hold_outlasts_the_switch);
         RUN_TEST(test_close_in_every_phase_leaves_nothing_behind);
     }
     return UNITY_END();
