@@ -22,6 +22,7 @@ from typed import (
 
 INIT = "STEPPER INIT ,,GP22"
 BOTH_X = f"STEPPER HWLIMITS GP{X_MIN},GP{Y_MIN},0,GP{X_MAX}"
+READY = (INIT, *AXES, BOTH_X, "STEPPER POSITION HOME", "STEPPER RUN")
 MOVE = "STEPPER GC G1 X50 F3000"
 STATUS = "PRINT PEEK(STEPPER STATUS)"
 KNOWN = 128
@@ -48,11 +49,7 @@ def test_the_alarm_and_what_acknowledges_it(input_name: str, tmp_path: Path) -> 
     alarm += " alarm - home (G28), STEPPER POSITION or STEPPER RECOVER first"
     session = typed(
         tmp_path,
-        INIT,
-        *AXES,
-        BOTH_X,
-        "STEPPER POSITION HOME",
-        "STEPPER RUN",
+        *READY,
         MOVE,
         "PAUSE 600",
         "STEPPER RUN",
@@ -104,11 +101,7 @@ def test_a_trip_at_rest_keeps_the_position(tmp_path: Path) -> None:
     """Nothing moved, so nothing is lost; the drivers go off all the same."""
     session = typed(
         tmp_path,
-        INIT,
-        *AXES,
-        BOTH_X,
-        "STEPPER POSITION HOME",
-        "STEPPER RUN",
+        *READY,
         "STEPPER GC G1 X2 F6000",
         "PAUSE 600",
         STATUS,
@@ -156,11 +149,7 @@ def test_each_trip_is_told_once_with_all_its_inputs(tmp_path: Path) -> None:
     """What has done it, what is lost, and what to do; the next command is carried out."""
     session = typed(
         tmp_path,
-        INIT,
-        *AXES,
-        BOTH_X,
-        "STEPPER POSITION HOME",
-        "STEPPER RUN",
+        *READY,
         MOVE,
         "PAUSE 300",
         "PRINT 1",
@@ -195,11 +184,7 @@ def test_armed_on_a_pressed_switch(tmp_path: Path) -> None:
     active = "limit switch X_MIN is active - home (G28) or jog off it"
     session = typed(
         tmp_path,
-        INIT,
-        *AXES,
-        BOTH_X,
-        "STEPPER POSITION HOME",
-        "STEPPER RUN",
+        *READY,
         "STEPPER GC G1 X1 F600",
         "STEPPER GC G2 X1 I1 F600",
         "STEPPER JOG X,-1",
