@@ -40,8 +40,8 @@ bool gcode_must_wait(void);
 err_t gcode_failure(void);
 bool gcode_failed(void);
 
-// What M0, M1 and M6 wait for, in the order in which the machine comes to them: to be asked each
-// time it pauses. False: it pauses for something else.
+// What the pause that the machine came to last is for; to be asked once for each. False: for
+// something else than M0, M1 or M6, or nobody knows.
 #define GCODE_NO_TOOL UINT32_MAX
 bool gcode_take_pause(uint32_t *tool); // the tool of M6, else GCODE_NO_TOOL
 

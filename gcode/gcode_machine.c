@@ -62,45 +62,54 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
 
 // ---- Pauses -------------------------------------------------------------------------------------
 
-// Those that are queued, the first one first; if there are more, the others are only counted. A
-// drop forgets them.
+// What each pause is for, under the number that stepper_pauses() will have when it is reached: one
+// that is over before anybody has looked must not leave its tool to the next. Of those that are
+// queued the first eight are kept. A drop forgets them.
 #define PAUSES_MAX 8u
 
 static struct {
-    uint32_t tools[PAUSES_MAX];
-    uint32_t count;
-    uint32_t more;
+    struct {
+        uint32_t number; // 0: free
+        uint32_t tool;
+    } kept[PAUSES_MAX]; // at number % PAUSES_MAX
+    uint32_t last;      // number of the pause queued last
+    uint32_t reached;
     uint32_t drops;
 } pauses;
 
-static void follow_drops(void) {
-    if (pauses.drops != stepper_drops()) {
-        pauses.drops = stepper_drops();
-        pauses.count = 0;
-        pauses.more = 0;
+static void follow_pauses(void) {
+    uint32_t reached = stepper_pauses();
+    uint32_t drops = stepper_drops();
+    if (pauses.drops != drops || reached < pauses.reached) {
+        memset(&pauses, 0, sizeof pauses);
+        pauses.drops = drops;
+        pauses.last = reached;
     }
+    pauses.reached = reached;
 }
 
 static err_t push_pause(uint32_t tool) {
-    follow_drops();
+    follow_pauses();
     err_t err = stepper_pause();
-    if (err == ERR_OK && pauses.count < PAUSES_MAX && pauses.more == 0) {
-        pauses.tools[pauses.count++] = tool;
-    } else if (err == ERR_OK) {
-        pauses.more++;
+    if (err == ERR_OK) {
+        uint32_t number = ++pauses.last;
+        unsigned place = number % PAUSES_MAX;
+        if (pauses.kept[place].number < pauses.reached || pauses.kept[place].number == 0) {
+            pauses.kept[place].number = number;
+            pauses.kept[place].tool = tool;
+        }
     }
     return err;
 }
 
 bool gcode_take_pause(uint32_t *tool) {
-    follow_drops();
-    if (pauses.count == 0) {
-        pauses.more -= pauses.more > 0 ? 1 : 0;
+    follow_pauses();
+    unsigned place = pauses.reached % PAUSES_MAX;
+    if (pauses.reached == 0 || pauses.kept[place].number != pauses.reached) {
         return false;
     }
-    *tool = pauses.tools[0];
-    pauses.count--;
-    memmove(pauses.tools, pauses.tools + 1, pauses.count * sizeof pauses.tools[0]);
+    *tool = pauses.kept[place].tool;
+    pauses.kept[place].number = 0;
     return true;
 }
 

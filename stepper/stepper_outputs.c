@@ -295,6 +295,10 @@ bool stepper_paused(void) {
     return governor_paused();
 }
 
+uint32_t stepper_pauses(void) {
+    return governor_pauses();
+}
+
 void stepper_set_line(uint32_t line) {
     lines_set(line);
 }

@@ -88,6 +88,9 @@ err_t stepper_pause(void);
 // The machine stands at such an entry.
 bool stepper_paused(void);
 
+// How many such entries it has come to since INIT.
+uint32_t stepper_pauses(void);
+
 // ---- Line numbers -------------------------------------------------------------------------------
 
 // Entries queued from now on came from this line; 0: from none.

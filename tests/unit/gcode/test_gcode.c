@@ -162,11 +162,14 @@ static void test_dwell_and_spindle_lines(void) {
     TEST_ASSERT_DOUBLE_WITHIN(0.002, 0.25, bench_finish(1));
 }
 
-static void pass_pause(void) {
+static void reach_pause(void) {
     for (unsigned i = 0; i < 1000 && !stepper_paused(); i++) {
         bench_wait_us(1000);
     }
     TEST_ASSERT_TRUE(stepper_paused());
+}
+
+static void go_on(void) {
     TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(false));
     bench_wait_us(5000);
 }
@@ -181,16 +184,27 @@ static void test_pauses_know_their_tools(void) {
         lines_check_ok("M6 T9");
     }
     for (unsigned i = 0; i < 12; i++) {
-        pass_pause();
+        reach_pause();
         TEST_ASSERT_EQUAL(i < 8, gcode_take_pause(&tool)); // it keeps eight
         if (i < 8) {
             TEST_ASSERT_EQUAL_UINT32(i == 0 ? 3 : i == 1 ? GCODE_NO_TOOL : 9, tool);
         }
+        go_on();
     }
     lines_check_ok("M6 T4");
-    pass_pause();
+    reach_pause();
     TEST_ASSERT_TRUE(gcode_take_pause(&tool));
     TEST_ASSERT_EQUAL_UINT32(4, tool);
+    TEST_ASSERT_FALSE(gcode_take_pause(&tool));
+    go_on();
+    lines_check_ok("M6 T6"); // over before anybody has asked
+    reach_pause();
+    go_on();
+    lines_check_ok("M0");
+    reach_pause();
+    TEST_ASSERT_TRUE(gcode_take_pause(&tool));
+    TEST_ASSERT_EQUAL_UINT32(GCODE_NO_TOOL, tool);
+    go_on();
     lines_check_ok("M6 T5");
     stepper_stop();
     bench_finish(1);
