@@ -38,6 +38,13 @@ typedef struct {
     segment_t slots[SEGMENTS];
 } segment_ring_t;
 
-extern segment_ring_t segments;
+extern segment_ring_t segments; // in step_isr.c
+
+// Motor position at `wanted` ticks before the end of the segment, which the tick has carried out up
+// to `left` before the end; and at its beginning. Contexts: governor, main with the governor
+// locked.
+void segment_position(const segment_t *segment, uint32_t left, uint32_t wanted,
+                      int32_t steps[AXIS_COUNT]);
+void segment_start(const segment_t *segment, int32_t steps[AXIS_COUNT]);
 
 #endif

@@ -286,33 +286,6 @@ void step_isr_set_pwm(hal_pwm_place_t place) {
     isr.pwm = place;
 }
 
-// Motor position at `wanted` ticks before the end of `segment`, which the tick has carried out up
-// to `left` before the end: phase and rate at its start follow from those now, and the carries from
-// there on from 64-bit arithmetic.
-static void position_in(const segment_t *segment, uint32_t left, uint32_t wanted,
-                        int32_t steps[AXIS_COUNT]) {
-    uint64_t done = segment->ticks - left;
-    uint64_t ramps = done * (done - 1) / 2; // 0 + 1 + ... + (done - 1): how often each ramp counts
-    uint64_t until = segment->ticks - wanted;
-    uint64_t ramps_until = until * (until - 1) / 2;
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        const segment_axis_t *now = &segment->axes[axis];
-        uint64_t ramp = (uint64_t)(int32_t)now->ramp;
-        uint32_t start_rate = now->rate - now->ramp * (uint32_t)done;
-        uint32_t start_phase = now->phase - (uint32_t)(start_rate * done + ramp * ramps);
-        uint64_t travel = start_rate * until + ramp * ramps_until;
-        int32_t carries = (int32_t)((start_phase + travel) >> 32);
-        bool negative = (segment->flags >> axis) & 1;
-        steps[axis] = now->start_steps + (negative ? -carries : carries);
-    }
-}
-
-static void beginning_of(const segment_t *segment, int32_t steps[AXIS_COUNT]) {
-    for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
-        steps[axis] = segment->axes[axis].start_steps;
-    }
-}
-
 bool step_isr_position(int32_t steps[AXIS_COUNT]) {
     for (;;) {
         const segment_t *segment = isr.current;
@@ -321,9 +294,9 @@ bool step_isr_position(int32_t steps[AXIS_COUNT]) {
         RING_BARRIER();
         bool waiting = segment == NULL && ring_used(&segments.ring) > 0;
         if (segment != NULL) {
-            position_in(segment, left, left, steps);
+            segment_position(segment, left, left, steps);
         } else if (waiting) { // the first tick is still to come
-            beginning_of(&segments.slots[segments.ring.take_slot], steps);
+            segment_start(&segments.slots[segments.ring.take_slot], steps);
         }
         RING_BARRIER();
         if (segment == isr.current && left == isr.ticks_left && taken == segments.ring.read) {
@@ -368,7 +341,7 @@ bool step_isr_latch_waits(void) {
 static bool collect_at_rest(void) {
     bool known = ring_used(&segments.ring) > 0;
     if (known) {
-        beginning_of(&segments.slots[segments.ring.take_slot], isr.latched_steps);
+        segment_start(&segments.slots[segments.ring.take_slot], isr.latched_steps);
     }
     return known;
 }
@@ -380,7 +353,7 @@ static void collect_in(const segment_t *segment) {
     do {
         left = segment == isr.current ? isr.ticks_left : 0;
         RING_BARRIER();
-        position_in(segment, left, isr.latched_left, isr.latched_steps);
+        segment_position(segment, left, isr.latched_left, isr.latched_steps);
         RING_BARRIER();
     } while (left != (segment == isr.current ? isr.ticks_left : 0));
 }
