@@ -1,5 +1,7 @@
 """The spindle's PWM on the board: registers, pulses, and its place in the motion."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -125,3 +127,51 @@ def test_power_of_each_move(board: Emulator) -> None:
         assert duties[change + 4] == pytest.approx(power, abs=1)
     # It is one motion, faster and faster up to its middle.
     assert np.all(np.diff(np.diff(steps))[:150] < 2 * TICK_NS)
+
+
+def burnt_s(edges: list[tuple[int, int, int]], begin_ns: float, end_ns: float) -> float:
+    """Return how long the output was on between two times."""
+    mine = [(time, high) for time, gpio, high in edges if gpio == SPINDLE]
+    on = 0.0
+    for (time, high), (later, _) in pairwise([*mine, (int(end_ns), 0)]):
+        if high:
+            on += max(0.0, min(later, end_ns) - max(time, begin_ns))
+    return on * 1e-9
+
+
+def test_a_laser_burns_by_the_way(board: Emulator) -> None:
+    """M4: each line gets power * way / feed; nothing is burnt by G0, in a hold and after a stop."""
+    ready(board, ",,100,0,20000")
+    obey(board, "STEPPER LASER 1", "STEPPER GC M4 S80", "STEPPER HOLD")
+    obey(board, "STEPPER GC G1 X10 F3000", "STEPPER GC G0 X20", "STEPPER GC G1 X22 F600 S50")
+    board.clear_edges()
+    obey(board, "STEPPER RESUME")
+    board.run_ms(100)
+    obey(board, "STEPPER HOLD")
+    board.run_ms(300)
+    held = len([1 for _, gpio, _ in board.edges() if gpio == SPINDLE])
+    board.run_ms(100)
+    assert len([1 for _, gpio, _ in board.edges() if gpio == SPINDLE]) == held
+    assert (board.level(SPINDLE), level(board)) == (0, 0)
+    obey(board, "STEPPER RESUME")
+    board.run_ms(1500)
+    edges = board.edges([SPINDLE, STEP])
+    steps = [time for time, gpio, high in edges if gpio == STEP and high]
+    assert len(steps) == 22 * 80
+    first, second = steps[800] - 1000, steps[1599]
+    end = edges[-1][0]
+    assert burnt_s(edges, 0, first) == pytest.approx(0.8 * 10 / 50, abs=1e-3)
+    assert burnt_s(edges, steps[810], steps[1590]) == 0.0
+    assert burnt_s(edges, second, end) == pytest.approx(0.5 * 2 / 10, abs=1e-3)
+    assert level(board) == 0
+    obey(board, "STEPPER GC M3 S100", "STEPPER GC G1 X90 F3000")
+    board.run_ms(400)
+    assert level(board) > 0
+    obey(board, "STEPPER STOP")
+    board.run_ms(3)
+    assert level(board) == 0
+    assert board.command("? PEEK(STEPPER SPEED)").split()[-1] not in ("0", "0.0")
+    board.run_ms(300)
+    obey(board, "STEPPER GC G1 X0")
+    board.run_ms(100)
+    assert (board.level(SPINDLE), level(board)) == (0, 0)
