@@ -153,6 +153,15 @@ static void switch_drivers(bool on) {
     governor.drivers_on = on;
 }
 
+// Nothing moves: no laser burns from now on. False if there is nothing to do for that.
+static bool put_out(void) {
+    bool lit = outputs_put_out();
+    if (lit) {
+        segment_writer_wait(1, 0, 0);
+    }
+    return lit;
+}
+
 // Makes the next segment or two. False if there is nothing to do.
 static bool advance(uint32_t slice_ticks) {
     const block_t *front = planner_front();
@@ -160,18 +169,17 @@ static bool advance(uint32_t slice_ticks) {
         drop_blocks();
         return true;
     }
-    bool waits = front == NULL || (governor.holding && travel_speed() <= 0.0f);
-    if (waits && outputs_put_out()) {
-        segment_writer_wait(1, 0, 0);
-        return true;
-    }
     bool wanted = front != NULL || jog_active() || !governor.idle_off;
     if (wanted != governor.drivers_on) {
+        outputs_put_out();
         switch_drivers(wanted);
         return true;
     }
     if (jog_active()) {
         if (jog_speed() <= 0.0f) {
+            if (put_out()) {
+                return true;
+            }
             set_off();
         }
         jog_advance();
@@ -180,8 +188,8 @@ static bool advance(uint32_t slice_ticks) {
         }
         return true;
     }
-    if (waits) {
-        return false;
+    if (front == NULL || (governor.holding && travel_speed() <= 0.0f)) {
+        return put_out();
     }
     if (governor.standing) {
         begin_block(front);

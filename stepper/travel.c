@@ -61,10 +61,15 @@ static void go_on(float ticks, float end_speed) {
     travel.speed = end_speed;
 }
 
-static void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
+// A laser's power for what is about to be written. Apart, because hardly anybody needs it.
+static __attribute__((noinline)) void dim(void) {
+    outputs_follow_speed(0.5f * (travel.pending_from + travel.speed));
+}
+
+static inline void write_way(const int64_t target[AXIS_COUNT], bool at_rest) {
     int32_t change = segment_writer_change(travel.pending_from, travel.speed);
     if (outputs.dims) {
-        outputs_follow_speed(0.5f * (travel.pending_from + travel.speed));
+        dim();
     }
     segment_writer_move(target, travel.pending_ticks, change, at_rest);
     travel.pending_ticks = 0.0f;
