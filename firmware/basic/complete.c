@@ -116,10 +116,20 @@ static void offer_statements(void) {
     }
 }
 
+// A function of several rows, such as PEEK, is one candidate.
+static bool is_first_of_its_name(unsigned row) {
+    for (unsigned i = 0; i < row; i++) {
+        if (strcmp(rows_function(i)->name, rows_function(row)->name) == 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static void offer_functions(void) {
     const basic_function_t *row;
     for (unsigned i = 0; (row = rows_function(i)) != NULL; i++) {
-        if (i == 0 || strcmp(row->name, rows_function(i - 1)->name) != 0) {
+        if (is_first_of_its_name(i)) {
             offer(at.word, row->name, strlen(row->name), '(');
         }
     }

@@ -211,9 +211,7 @@ def test_arcs_that_touch_a_half_step_may_make_it_or_not():
     for shift in (-0.01, 0.01):
         radius = (400.5 + shift) / 800
         commanded = path.build(read_blocks([f"F600 G3 I{radius:.9f}"]), MACHINE, SCALE)
-        driven = path.build(
-            read_blocks([f"G1 F600 G3 I{(400.5 - shift) / 800:.9f}"]), MACHINE, SCALE
-        )
+        driven = path.build(read_blocks([f"F600 G3 I{(400.5 - shift) / 800:.9f}"]), MACHINE, SCALE)
         ones = np.ones(len(commanded.way))
         length = float(driven.begin[-1])
         phases = trip([(5_000, 0.02), (-5_000, 0.02)], length)
