@@ -48,11 +48,11 @@ ALLOWED: dict[str, list[str]] = {
 
 # Second faces: headers that others may include because they have nothing to do with the first.
 ALSO_FACES = {
-    "firmware/hal/pins.h",
-    "firmware/hal/hal_io.h",
     "firmware/hal/hal_i2c.h",
+    "firmware/hal/hal_io.h",
     "firmware/hal/hal_serial.h",
     "firmware/hal/hal_spi.h",
+    "firmware/hal/pins.h",
     "firmware/hal/slices.h",
     "firmware/io/io_bus.h",
     "firmware/io/io_serial.h",
@@ -60,12 +60,12 @@ ALSO_FACES = {
     "stepper/rules.h",
     "stepper/stepper_axes.h",
     "stepper/stepper_check.h",
-    "stepper/stepper_homing.h",
     "stepper/stepper_estimate.h",
-    "gcode/gcode_job.h",
-    "gcode/gcode_survey.h",
+    "stepper/stepper_homing.h",
     "stepper/stepper_outputs.h",
     "stepper/stepper_safety.h",
+    "gcode/gcode_job.h",
+    "gcode/gcode_survey.h",
 }
 
 # Includes that lead out of the table: the inline half of hal.h, and what the build generates.
