@@ -235,3 +235,60 @@ STEPPER CLOSE
     printed, rows = run(tmp_path, program)
     assert [line.strip() for line in printed if line.strip() in "01"] == ["1", "1"]
     assert [level for _, level in edges_of(rows, SPINDLE)] == [1, 0]
+
+
+LASER = ["STEPPER SPINDLE GP20,,1000,,20000", "STEPPER LASER 1"]
+
+
+def test_what_a_laser_needs() -> None:
+    found = answers(
+        *READY,
+        "STEPPER LASER 1",
+        "STEPPER SPINDLE GP20,,1000",
+        "STEPPER GC M4 S100",
+        *LASER,
+        "STEPPER GC M4 S100",
+        "STEPPER STATUS",
+        "? PEEK(STEPPER SPINDLE)",
+        "STEPPER SPINDLE GP20",
+        "STEPPER LASER 0",
+        "STEPPER GC M4",
+    )[len(READY) :]
+    needs_pwm = "Error : A laser needs PWM (use STEPPER SPINDLE with max_rpm)"
+    no_dir = "Error : Spindle has no dir_pin for M4 (use STEPPER SPINDLE)"
+    assert found[0] == needs_pwm
+    assert found[2] == no_dir
+    assert "PWM 20000 Hz, laser M4\n" in found[6]
+    assert found[7].strip() == "0"  # nothing moves
+    assert found[8:] == [needs_pwm, "", no_dir]
+
+
+@pytest.mark.parametrize("ending", ["", "M5", "M2", "G1 X1 X2"])
+def test_a_laser_is_off_behind_a_file(tmp_path: Path, ending: str) -> None:
+    """However it ends; what is typed then burns nothing until M3 or M4."""
+    lines = ["M4 S500", "G1 X5 F3000", *([ending] if ending else [])]
+    writing = "".join(f'PRINT #1, "{line}"\n' for line in lines)
+    setup = "\n".join(LASER)
+    program = f"""\
+{SETUP}{setup}
+OPEN "a.nc" FOR OUTPUT AS #1
+{writing}CLOSE #1
+STEPPER RUN
+STEPPER FILE "a.nc"
+{WAIT}PAUSE 5
+STEPPER GC G1 X10 F3000 S700
+{WAIT}STEPPER GC M3
+STEPPER GC G1 X15
+{WAIT}STEPPER CLOSE
+"""
+    _, rows = run(tmp_path, program)
+    steps = [time for time, level in edges_of(rows, STEP) if level]
+    assert len(steps) == 1200
+    end = steps[-1] + 20e6
+    seconds = [
+        duty(rows, a, b) * (b - a) * 1e-9
+        for a, b in ((0, steps[401]), (steps[401], steps[799]), (steps[799], end))
+    ]
+    assert seconds[0] == pytest.approx(0.5 * 5 / 50, abs=0.0005)
+    assert seconds[1] == 0.0
+    assert seconds[2] > 0.7 * 5 / 50
