@@ -60,6 +60,9 @@ err_t stepper_jog(axis_id_t axis, double distance, double feed) {
         .acceleration = axes[axis].acceleration,
         .jerk = settings->scurve ? jerk : 0.0f,
     };
+    if (!jog_active() && request.target == stepper_position_steps(axis)) {
+        return ERR_OK; // it stands there: a step too short, or at its limit
+    }
     hal_governor_lock();
     jog_start(&request);
     hal_governor_request();

@@ -48,6 +48,21 @@ static void test_distance_and_time(void) {
     }
 }
 
+static void test_no_way_is_no_jog(void) {
+    start(true);
+    TEST_ASSERT_EQUAL(ERR_OK, stepper_limits(AXIS_X, -1, 1));
+    jog(AXIS_X, 1, 6000);
+    bench_finish(1);
+    jog(AXIS_X, 0, 6000);
+    jog(AXIS_X, 0.001, 6000);
+    jog(AXIS_X, INFINITY, 6000); // it stands at its limit
+    TEST_ASSERT_EQUAL(0, stepper_active());
+    jog(AXIS_X, -0.5, 6000);
+    bench_finish(1);
+    check_stands_at(AXIS_X, 0.5, 80);
+    bench_end();
+}
+
 static void test_the_queue_goes_on_from_where_a_jog_ended(void) {
     start(true);
     jog(AXIS_Y, 3.3, 3000);
@@ -178,6 +193,7 @@ static void test_emergency_stop_in_a_jog(void) {
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_distance_and_time);
+    RUN_TEST(test_no_way_is_no_jog);
     RUN_TEST(test_the_queue_goes_on_from_where_a_jog_ended);
     RUN_TEST(test_farther_target_without_a_stop);
     RUN_TEST(test_target_behind_turns_round);
