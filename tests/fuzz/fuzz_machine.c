@@ -6,6 +6,7 @@
 
 #include "fuzz_session.h"
 #include "gcode/gcode.h"
+#include "gcode/gcode_job.h"
 #include "simulate.h"
 #include "stepper/stepper_homing.h"
 
@@ -62,7 +63,8 @@ void fuzz_machine_look(fuzz_machine_t *now) {
         .initialized = status.initialized,
         .armed = status.armed,
         .position_known = status.position_known,
-        .stopping = status.stopping || status.jogging,
+        .changing = status.stopping || status.jogging || gcode_busy() || gcode_job_runs() ||
+                    stepper_cycle() != STEPPER_CYCLE_NONE,
         .queued = status.executed + status.blocks - status.blocks_free,
     };
     stepper_target(now->target);
@@ -75,8 +77,8 @@ void fuzz_machine_look(fuzz_machine_t *now) {
 void fuzz_machine_check_unchanged(const fuzz_machine_t *before) {
     fuzz_machine_t now;
     fuzz_machine_look(&now);
-    if (before->stopping) {
-        return; // the target follows the motors at the end of a stop or a jog, whatever is typed
+    if (before->changing) {
+        return;
     }
     FUZZ_SESSION_CHECK(now.initialized == before->initialized,
                        "a refused line initialised or closed");

@@ -13,7 +13,9 @@ typedef struct {
     bool initialized;
     bool armed;
     bool position_known;
-    bool stopping;
+    // The target follows the motors at the end of a stop or a jog, and lines that wait for room or
+    // a cycle go on filling the queue, whatever is typed.
+    bool changing;
     uint32_t queued; // entries ever queued
     double target[AXIS_COUNT];
     double offset[AXIS_COUNT];
