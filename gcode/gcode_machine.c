@@ -53,6 +53,8 @@ static err_t check(const gcode_entry_t *entry, double from[AXIS_COUNT]) {
         return stepper_spindle_check(entry->spindle.turn);
     case ENTRY_COOLANT:
         return stepper_coolant_check(entry->coolant.flood, entry->coolant.mist);
+    case ENTRY_HOME:
+        return stepper_home_check(entry->axes);
     default:
         return ERR_OK;
     }

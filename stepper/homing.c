@@ -344,23 +344,29 @@ void homing_advance(void) {
 
 // ---- Beginning and end --------------------------------------------------------------------------
 
-err_t stepper_home(uint32_t wanted) {
-    err_t err = rules_check(RULES_DO_HOME);
+err_t stepper_home_check(uint32_t wanted) {
+    err_t err = ERR_OK;
     FOR_AXES(axis, wanted) {
         err = err == ERR_OK ? home_config_check(axis) : err;
     }
+    if (err == ERR_OK && wanted == 0 && home_config_all() == 0) {
+        err = err_raise(ERR_HOME_NO_SWITCH, "No axis has a home switch");
+    }
+    return err;
+}
+
+err_t stepper_home(uint32_t wanted) {
+    err_t err = rules_check(RULES_DO_HOME);
+    if (err == ERR_OK) {
+        err = stepper_home_check(wanted);
+    }
+    if (err == ERR_OK) {
+        err = alarm_acknowledge();
+    }
     if (err != ERR_OK) {
         return err;
     }
-    wanted = wanted != 0 ? wanted : home_config_all();
-    if (wanted == 0) {
-        return err_raise(ERR_HOME_NO_SWITCH, "No axis has a home switch");
-    }
-    err = alarm_acknowledge();
-    if (err != ERR_OK) {
-        return err;
-    }
-    homing.wanted = (uint8_t)wanted;
+    homing.wanted = (uint8_t)(wanted != 0 ? wanted : home_config_all());
     homing.group = 0;
     homing.todo = 0;
     homing.moved = false;

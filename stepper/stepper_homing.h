@@ -63,6 +63,9 @@ void stepper_home_groups(uint8_t groups[STEPPER_HOME_AXES]);
 // another cycle, a jog or a stop is under way.
 err_t stepper_home(uint32_t axes);
 
+// Whether stepper_home() would be refused because of an axis or its switch; raises it.
+err_t stepper_home_check(uint32_t axes);
+
 // For STATUS: the axes of the group that is homed now, and what they do ("approaching").
 const char *stepper_homing_phase(uint32_t *axes);
 
