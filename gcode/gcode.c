@@ -40,7 +40,7 @@ err_t gcode_failure(void) {
 }
 
 bool gcode_failed(void) {
-    return gcode_live.failure != ERR_OK;
+    return gcode_live.failure.code != ERR_OK;
 }
 
 bool gcode_take_end(void) {
@@ -81,7 +81,7 @@ void gcode_reset(void) {
     gcode_live.busy = false;
     gcode_live.waits = false;
     gcode_live.ended = false;
-    gcode_live.failure = ERR_OK;
+    gcode_live.failure.code = ERR_OK;
     gcode_clear_offsets();
 }
 

@@ -17,11 +17,11 @@ void gcode_interpreter_start(gcode_interpreter_t *interpreter, const gcode_sink_
 
 // ---- What waits ---------------------------------------------------------------------------------
 
-static void give_up(gcode_interpreter_t *in, err_t failure) {
-    in->failed_waiting = in->waits;
+// With the error that was raised last, which is told later.
+static void give_up(gcode_interpreter_t *in) {
     in->busy = false;
     in->waits = false;
-    in->failure = failure;
+    err_keep(&in->failure);
 }
 
 // After a drop the modal state and the spindle may differ, and what waits has lost its sense.
@@ -44,7 +44,7 @@ static bool await_end(gcode_interpreter_t *in) {
     if (in->waits && in->sink->ended(&result)) {
         in->drops = in->sink->drops(); // it ends its moves by dropping what is left of them
         if (result != ERR_OK) {
-            give_up(in, result);
+            give_up(in);
         }
         in->waits = false;
     }
@@ -89,19 +89,17 @@ void gcode_interpreter_background(gcode_interpreter_t *in) {
     err_t err = push_pending(in);
     bool later = err == ERR_GCODE_BUFFER_FULL || err == ERR_STEPPER_STOPPING; // then it is dropped
     if (err != ERR_OK && !later) {
-        give_up(in, err);
+        give_up(in);
     }
 }
 
 err_t gcode_interpreter_failure(gcode_interpreter_t *in) {
-    err_t failure = in->failure;
-    in->failure = ERR_OK;
-    if (failure == ERR_OK) {
-        return ERR_OK;
+    err_t failure = in->failure.code;
+    if (failure != ERR_OK) {
+        err_put_back(&in->failure);
+        in->failure.code = ERR_OK;
     }
-    err_t anew; // with its text, which others may have replaced since
-    bool known = in->failed_waiting && in->sink->ended(&anew) && anew == failure;
-    return known ? failure : err_raise(failure, "%s", "");
+    return failure;
 }
 
 // ---- Lines --------------------------------------------------------------------------------------
@@ -160,7 +158,7 @@ static __attribute__((noinline)) err_t carry_out(gcode_interpreter_t *in, const 
         return err;
     }
     if (err != ERR_OK && err != ERR_GCODE_BUFFER_FULL) {
-        give_up(in, err);
+        give_up(in);
     }
     commit(in, line, place);
     if ((steps & (1u << STEP_CYCLE)) != 0) {

@@ -15,9 +15,8 @@ typedef struct {
     bool busy;            // steps of `pending` are left, or it waits
     bool waits;           // for the end of homing or probing
     bool ended;           // M2 or M30
-    bool failed_waiting;  // `failure` is how homing or probing ended
-    err_t failure;
-    uint32_t drops; // of the sink, when it was asked last
+    err_kept_t failure;   // of what was pending, not told yet
+    uint32_t drops;       // of the sink, when it was asked last
 } gcode_interpreter_t;
 
 // Modes as after power-up; offsets 0.

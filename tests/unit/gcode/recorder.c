@@ -142,7 +142,8 @@ static err_t push(const gcode_entry_t *entry) {
 }
 
 static bool ended(err_t *result) {
-    *result = recorder.result;
+    bool failed = recorder.ended && recorder.result != ERR_OK;
+    *result = failed ? err_raise(recorder.result, "%s", "") : ERR_OK;
     return recorder.ended;
 }
 
