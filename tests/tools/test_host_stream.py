@@ -104,21 +104,30 @@ def test_refused_line_stops_exactly_there(board, setup_file, tmp_path):
         assert prompt.peek("X") <= 100
 
 
+def interrupted(board, setup, part, trace_bytes: int) -> str:
+    """What `stream` says that gets a Ctrl-C when this much of the trace is there."""
+    command = [sys.executable, "-m", "stepmite.cli", "stream", part, "--port", board.device]
+    process = subprocess.Popen(
+        [*command, "--setup", setup], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        deadline = time.monotonic() + 20
+        while not board.trace.exists() or board.trace.stat().st_size < trace_bytes:
+            assert process.poll() is None, process.communicate()
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=20)
+    finally:
+        process.kill()
+    assert process.returncode == 130, output + errors
+    return output
+
+
 def test_ctrl_c_brings_a_controlled_stop(board, setup_file, tmp_path):
     part = tmp_path / "part.nc"
     part.write_text("G91 G1 F600\n" + "X1\nX-1\n" * 2000)
-    command = [sys.executable, "-m", "stepmite.cli", "stream", part, "--port", board.device]
-    process = subprocess.Popen(
-        [*command, "--setup", setup_file], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    deadline = time.monotonic() + 20
-    while not board.trace.exists() or board.trace.stat().st_size < 20_000:
-        assert process.poll() is None, process.communicate()
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-    process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=20)
-    assert process.returncode == 130, output + errors
+    output = interrupted(board, setup_file, part, 20_000)
     assert "Stopped at X" in output
     with Board.open(board.device) as prompt:
         assert prompt.peek("ACTIVE") == 0
@@ -200,24 +209,12 @@ def test_ctrl_c_while_the_setup_homes(tmp_path):
     lines = [*SETUP, "STEPPER HWLIMITS GP16", "STEPPER HOME X,,1,,,9999", "STEPPER GC G28"]
     file.write_text("\n".join(lines))
     part.write_text("G1 X1 F100\n")
-    command = [sys.executable, "-m", "stepmite.cli", "stream", part, "--port", machine.device]
-    process = subprocess.Popen(
-        [*command, "--setup", file], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
     try:
-        deadline = time.monotonic() + 20
-        while not machine.trace.exists() or machine.trace.stat().st_size < 10_000:
-            assert process.poll() is None, process.communicate()
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=20)
-        assert process.returncode == 130, output + errors
+        output = interrupted(machine, file, part, 10_000)
         assert "Stopped while the machine was set up" in output
         with Board.open(machine.device) as prompt:
             assert prompt.peek("ACTIVE") == 0
     finally:
-        process.kill()
         machine.close()
 
 

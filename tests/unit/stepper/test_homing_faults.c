@@ -110,14 +110,19 @@ static void test_a_switch_that_is_stuck_from_the_start(void) {
                   true);
 }
 
-static void test_a_switch_that_sticks_in_the_first_approach(void) {
-    begin(4000);
-    homing_bench_reach(AXIS_X, "approaching the switch", 0);
+// The approach under way ends at a switch that does not open again.
+static void stick_when_pressed(void) {
     while (!x_min->pressed) {
         bench_wait_us(10);
         stepper_background();
     }
     x_min->fault = SIMULATE_FAULT_NEVER_OPENS;
+}
+
+static void test_a_switch_that_sticks_in_the_first_approach(void) {
+    begin(4000);
+    homing_bench_reach(AXIS_X, "approaching the switch", 0);
+    stick_when_pressed();
     check_failure("Homing X failed: the switch X_MIN did not open within 3 mm while backing off",
                   true);
 }
@@ -135,11 +140,7 @@ static void test_a_switch_that_breaks_before_the_second_approach(void) {
 static void test_a_switch_that_sticks_in_the_second_approach(void) {
     begin(4000);
     homing_bench_reach(AXIS_X, "approaching slowly", 100000);
-    while (!x_min->pressed) {
-        bench_wait_us(10);
-        stepper_background();
-    }
-    x_min->fault = SIMULATE_FAULT_NEVER_OPENS;
+    stick_when_pressed();
     check_failure("Homing X failed: the switch X_MIN did not open within 3 mm while pulling off",
                   true);
 }

@@ -71,14 +71,19 @@ static void test_noise_shorter_than_the_filter_does_not_trip(void) {
     bench_end();
 }
 
-// The step pins rise `samples - 1` more times at most.
-static void check_trip(uint32_t samples) {
+// Between two ticks, with this filter.
+static void press_at_speed(uint32_t samples) {
     start_with_limits();
     TEST_ASSERT_EQUAL(ERR_OK, stepper_filter(samples, 1));
     bench_move(500, 0, 0, 0, 6000);
     bench_wait_us(500000);
     go_between_ticks();
     host_pads_drive(OTHER_GPIO, false);
+}
+
+// The step pins rise `samples - 1` more times at most.
+static void check_trip(uint32_t samples) {
+    press_at_speed(samples);
     bench_wait_us(samples * TICK_US - TICK_US / 2 - 1);
     TEST_ASSERT_TRUE(hal_tick_running());
     bench_wait_us(2);
@@ -104,12 +109,7 @@ static void test_a_limit_trips_with_the_last_sample_of_its_filter(void) {
 }
 
 static void check_last_step(uint32_t samples) {
-    start_with_limits();
-    TEST_ASSERT_EQUAL(ERR_OK, stepper_filter(samples, 1));
-    bench_move(500, 0, 0, 0, 6000);
-    bench_wait_us(500000);
-    go_between_ticks();
-    host_pads_drive(OTHER_GPIO, false);
+    press_at_speed(samples);
     uint64_t last_ns = host_clock_now_ns() + samples * TICK_US * 1000u;
     bench_wait_us(10000);
     TEST_ASSERT_LESS_THAN_UINT64(last_ns - 5000, bench.last_step_ns); // none in the last sample
