@@ -86,7 +86,7 @@ static void deliver_number(const basic_arg_spec_t *spec, const value_t *value, b
         errors_fail_with(ERR_ARGUMENT, "%s: expected a number", spec->name);
     }
     arg->number = value_to_number(value);
-    if (spec->kind == BASIC_ARG_INTEGER) {
+    if (spec->kind != BASIC_ARG_NUMBER) {
         if (arg->number < -9.2e18 || arg->number > 9.2e18) {
             fail_range(spec, value);
         }
@@ -205,6 +205,13 @@ static void deliver(const basic_arg_spec_t *spec, const value_t *value, basic_ar
             deliver_choice(spec, value, arg);
         } else {
             deliver_number(spec, value, arg);
+        }
+        break;
+    case BASIC_ARG_WORD:
+        if ((spec->flags & BASIC_ARG_OR_NUMBER) != 0 && value_is_numeric(value)) {
+            deliver_number(spec, value, arg);
+        } else {
+            deliver_text(spec, value, arg);
         }
         break;
     case BASIC_ARG_CHOICE:

@@ -65,7 +65,10 @@ enum {
     BASIC_ARG_BOARD_NUMBER = 1 << 4, // PIN: a bare number is the one printed beside the board's pin
     // CHOICE: of several rows with one name, which stand together, a bare word here that is one of
     // `choices` takes this row. A row without such an argument is taken if no other is.
-    BASIC_ARG_SELECTS = 1 << 5
+    BASIC_ARG_SELECTS = 1 << 5,
+    // WORD: a number will do as well, within min and max -> integer, number; `text` is empty then.
+    // A bare word stays a word, whatever variables there are.
+    BASIC_ARG_OR_NUMBER = 1 << 6
 };
 
 // One argument of a command: parsing, range check, error text, HELP and the reference page in one

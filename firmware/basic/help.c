@@ -109,12 +109,13 @@ static void print_usage(const basic_arg_spec_t *args, size_t count, const char *
     console_print(end);
 }
 
-static const char *kind_text(basic_arg_kind_t kind) {
-    switch (kind) {
+static const char *kind_text(const basic_arg_spec_t *spec) {
+    switch (spec->kind) {
     case BASIC_ARG_TEXT:
         return "a string";
     case BASIC_ARG_WORD:
-        return "a word or a string";
+        return (spec->flags & BASIC_ARG_OR_NUMBER) != 0 ? "a word, a string or a number"
+                                                        : "a word or a string";
     case BASIC_ARG_PIN:
         return "a pin: GP0 to GP28, or a number";
     case BASIC_ARG_ROUTINE:
@@ -137,7 +138,7 @@ static void print_argument(const basic_arg_spec_t *spec) {
     if (limited || spec->choices != NULL) {
         args_describe_range(spec, range, sizeof range);
     } else {
-        format_text(range, sizeof range, "%s", kind_text(spec->kind));
+        format_text(range, sizeof range, "%s", kind_text(spec));
     }
     char fallback[NUMBER_TEXT_SIZE] = "";
     if (spec->flags & BASIC_ARG_DEFAULT) {

@@ -59,6 +59,9 @@ static void print_values(const basic_arg_spec_t *arg) {
     } else {
         printf("%s", kinds[arg->kind]);
     }
+    if (arg->kind == BASIC_ARG_WORD && has(arg, BASIC_ARG_OR_NUMBER)) {
+        printf(", or a word");
+    }
     printf("%s%s", arg->unit != NULL ? " " : "", arg->unit != NULL ? arg->unit : "");
     if (arg->choices != NULL) {
         printf(", or ");

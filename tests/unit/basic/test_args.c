@@ -55,6 +55,13 @@ static const basic_arg_spec_t way_args[] = {
     {.name = "way", .kind = BASIC_ARG_NUMBER, .min = -100, .max = 100, .choices = "+|-|HOME"},
     {.name = "speed", .kind = BASIC_ARG_NUMBER, .flags = BASIC_ARG_OPTIONAL},
 };
+static const basic_arg_spec_t register_args[] = {
+    {.name = "register",
+     .kind = BASIC_ARG_WORD,
+     .flags = BASIC_ARG_OR_NUMBER,
+     .min = 0,
+     .max = 127},
+};
 static const basic_arg_spec_t free_args[] = {{.name = "any", .kind = BASIC_ARG_INTEGER}};
 
 static const basic_command_t commands[] = {
@@ -67,6 +74,7 @@ static const basic_command_t commands[] = {
     {"DRIVE RUN AGAIN", NULL, 0, refuse, NULL},
     {"DRIVE CHIP", chip_args, 1, remember, NULL},
     {"DRIVE WAY", way_args, 2, remember, NULL},
+    {"DRIVE READ", register_args, 1, remember, NULL},
 };
 
 static err_t position(const basic_arg_t *args, size_t count, basic_value_t *result) {
@@ -219,6 +227,25 @@ static void test_numbers_or_words(void) {
     TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP DRIVE WAY"), "-100 to 100, +, -, HOME"));
 }
 
+static void check_register(const char *line, int64_t number, const char *word) {
+    accept(line);
+    TEST_ASSERT_EQUAL_INT64_MESSAGE(number, got[0].integer, line);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(word, texts[0], line);
+}
+
+static void test_words_or_numbers(void) {
+    check_register("DRIVE READ &H6C", 0x6C, "");
+    check_register("DRIVE READ 100+8", 108, "");
+    check_register("DRIVE READ GCONF", 0, "GCONF");
+    check_register("DRIVE READ \"IOIN\"", 0, "IOIN");
+    TEST_ASSERT_EQUAL_STRING("", board_answer("SG=5:r$=\"CS\""));
+    check_register("DRIVE READ r$", 0, "CS");
+    check_register("DRIVE READ SG", 0, "SG"); // a number of this name does not matter
+    check_register("DRIVE READ (SG)", 5, "");
+    reject("DRIVE READ 128", "register: 128 is invalid (valid is 0 to 127)");
+    TEST_ASSERT_NOT_NULL(strstr(board_answer("HELP DRIVE READ"), "a word, a string or a number"));
+}
+
 static void test_pins(void) {
     accept("DRIVE AXIS X,\"gp12\"");
     TEST_ASSERT_EQUAL_INT64(12, got[1].integer);
@@ -311,6 +338,7 @@ int main(void) {
     RUN_TEST(test_wrong_kinds);
     RUN_TEST(test_choices);
     RUN_TEST(test_numbers_or_words);
+    RUN_TEST(test_words_or_numbers);
     RUN_TEST(test_pins);
     RUN_TEST(test_raw);
     RUN_TEST(test_groups);
