@@ -116,14 +116,25 @@ err_t homing_peek_probe(const basic_arg_t *args, size_t count, basic_value_t *re
 
 // ---- The end of a cycle -------------------------------------------------------------------------
 
+static void tell_end(void) {
+    untold = false;
+    if (stepper_cycle_result() != ERR_OK) {
+        basic_notice("%s", err_message());
+    }
+}
+
 void homing_background(void) {
+    if (stepper_cycle() == STEPPER_CYCLE_NONE && !untold) {
+        stepper_background();
+        return;
+    }
+    err_kept_t kept; // the statement in the foreground may be about to tell its error
+    err_keep(&kept);
     stepper_background();
     if (untold && stepper_cycle() == STEPPER_CYCLE_NONE) {
-        untold = false;
-        if (stepper_cycle_result() != ERR_OK) {
-            basic_notice("%s", err_message());
-        }
+        tell_end();
     }
+    err_put_back(&kept);
 }
 
 static void print_axes(const char *before, uint32_t axes) {

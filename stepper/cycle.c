@@ -5,6 +5,7 @@
 #include "stepper/axis.h"
 #include "stepper/governor.h"
 #include "stepper/homing.h"
+#include "stepper/homing_hook.h"
 #include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/moves.h"
@@ -24,7 +25,8 @@ static struct {
     uint8_t end_axes;
     float end_mm;
     const char *end_phase;
-    bool end_max; // the switch of the first of `end_axes`
+    bool end_max;       // the switch of the first of `end_axes`
+    err_kept_t end_why; // what the hook of homing has told
 } cycle;
 
 // What each kind does at a standstill, and when it ends.
@@ -73,6 +75,9 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm) {
     cycle.end_axes = (uint8_t)(who != 0 ? who : group);
     cycle.end_mm = (float)mm;
     cycle.end_phase = phase;
+    if (why == CYCLE_DRIVER) {
+        err_keep(&cycle.end_why);
+    }
     home_switch_t found = {0};
     if (cycle.end_axes != 0) {
         home_config_switch((axis_id_t)__builtin_ctz(cycle.end_axes), &found);
@@ -112,6 +117,7 @@ void cycle_follow(void) {
 
 void stepper_background(void) {
     if (cycle.kind == STEPPER_CYCLE_NONE) {
+        homing_hook_tidy();
         return;
     }
     machine_follow_stops();
@@ -201,6 +207,8 @@ static err_t raise_homing(void) {
     case CYCLE_TOO_FAR:
         return err_raise(ERR_HOMING_FAILED,
                          "%s failed: its position is too far from zero for more travel", letters);
+    case CYCLE_DRIVER:
+        return err_raise(ERR_HOMING_FAILED, "%s failed: %s", letters, cycle.end_why.text);
     case CYCLE_EITHER_END:
         return err_raise(ERR_HOMING_FAILED,
                          "%s failed: it stands on the switch of either end - jog off it", letters);

@@ -15,6 +15,7 @@ typedef enum {
     CYCLE_EITHER_END,     // it stands on a switch of which nobody knows at which end it is
     CYCLE_NEVER_CLOSED,   // the switch, within so many mm
     CYCLE_NEVER_OPENED,   // the same
+    CYCLE_DRIVER,         // the hook has failed: the current error says why
     CYCLE_NO_CONTACT,     // the probe, before the target
     CYCLE_CONTACT_KEPT,   // the same, probing away
     CYCLE_CONTACT_BEFORE, // when probing was to begin

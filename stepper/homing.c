@@ -16,6 +16,7 @@
 #include "stepper/alarm.h"
 #include "stepper/axis.h"
 #include "stepper/cycle.h"
+#include "stepper/homing_hook.h"
 #include "stepper/limits.h"
 #include "stepper/machine.h"
 #include "stepper/rules.h"
@@ -51,13 +52,11 @@ static struct {
     uint8_t stalls; // of the group: those without a switch, see notice_stalls()
     bool moved;     // a move of the phase has been made
     bool settled;   // and the pause behind it
-    bool hooked;    // the hook has been called with `on`
     phase_t phase;
     int32_t start[STEPPER_HOME_AXES]; // of the move, steps
     int32_t place[STEPPER_HOME_AXES]; // where the switch closed
     float left[STEPPER_HOME_AXES];    // mm that may still be searched
     float span[STEPPER_HOME_AXES];    // mm of all of the search
-    void (*hook)(uint32_t axes, bool on);
 } homing;
 
 #define FOR_AXES(axis, mask)                                                                       \
@@ -71,11 +70,23 @@ static double direction(axis_id_t axis) {
     return home_config_switch_of(axis).max ? 1.0 : -1.0;
 }
 
-static void arm_hook(bool on) {
-    if (on != homing.hooked && homing.hook != NULL) {
-        homing.hook(homing.group, on);
+// True when the drivers of the group are as they should be; otherwise that takes a while, or was the
+// end of the cycle.
+static bool drivers_are(bool on) {
+    stepper_arm_t answer = homing_hook_arm(homing.group, on);
+    if (answer == STEPPER_ARM_FAILED) {
+        cycle_end(CYCLE_DRIVER, 0, 0.0);
     }
-    homing.hooked = on;
+    return answer == STEPPER_ARM_DONE;
+}
+
+// The same of what an earlier cycle has left armed.
+static bool drivers_are_tidy(void) {
+    stepper_arm_t answer = homing_hook_tidy();
+    if (answer == STEPPER_ARM_FAILED) {
+        cycle_end(CYCLE_DRIVER, 0, 0.0);
+    }
+    return answer == STEPPER_ARM_DONE;
 }
 
 // ---- The way of a phase -------------------------------------------------------------------------
@@ -118,9 +129,6 @@ static void enter(phase_t phase) {
         stepper_home_t home;
         stepper_home_settings(axis, &home);
         homing.span[axis] = homing.left[axis] = (float)reach(axis, &home);
-    }
-    if (homing.todo != 0) {
-        arm_hook(phases[phase].towards);
     }
 }
 
@@ -313,6 +321,9 @@ static void begin_move(void) {
 }
 
 void homing_advance(void) {
+    if (!drivers_are_tidy()) {
+        return;
+    }
     if (homing.moved && !homing.settled) {
         homing.settled = true;
         cycle_settle();
@@ -335,10 +346,10 @@ void homing_advance(void) {
     while (homing.todo == 0 && homing.phase + 1 < PHASES) {
         enter(homing.phase + 1);
     }
-    if (homing.todo != 0) {
-        begin_move();
-    } else {
+    if (homing.todo == 0) {
         end_group();
+    } else if (drivers_are(phases[homing.phase].towards)) {
+        begin_move();
     }
 }
 
@@ -352,7 +363,7 @@ err_t stepper_home_check(uint32_t wanted) {
     if (err == ERR_OK && wanted == 0 && home_config_all() == 0) {
         err = err_raise(ERR_HOME_NO_SWITCH, "No axis has a home switch");
     }
-    return err;
+    return err == ERR_OK ? homing_hook_check(wanted != 0 ? wanted : home_config_all()) : err;
 }
 
 err_t stepper_home(uint32_t wanted) {
@@ -376,7 +387,7 @@ err_t stepper_home(uint32_t wanted) {
 }
 
 void homing_end(bool done) {
-    arm_hook(false);
+    homing_hook_end();
     limits_except(0);
     stepper_raise_event(done ? STEPPER_EVENT_HOMED : STEPPER_EVENT_HOMING_FAILED);
     homing.wanted = 0;
@@ -386,8 +397,4 @@ void homing_end(bool done) {
 const char *stepper_homing_phase(uint32_t *group) {
     *group = homing.group != 0 ? homing.group : homing.wanted;
     return homing.group != 0 ? phases[homing.phase].doing : "waiting for the queue";
-}
-
-void stepper_homing_set_hook(void (*arm)(uint32_t axes, bool on)) {
-    homing.hook = arm;
 }

@@ -69,9 +69,27 @@ err_t stepper_home_check(uint32_t axes);
 // For STATUS: the axes of the group that is homed now, and what they do ("approaching").
 const char *stepper_homing_phase(uint32_t *axes);
 
-// Called with `on` before each approach of `axes` to their switches, and without behind it. A
-// driver that finds the end of an axis without a switch is armed there. NULL: nobody.
-void stepper_homing_set_hook(void (*arm)(uint32_t axes, bool on));
+// Whoever has to make something ready before axes approach their switches: drivers that find the
+// end of an axis without a switch are armed there, and disarmed behind it.
+typedef enum {
+    STEPPER_ARM_DONE,
+    STEPPER_ARM_BUSY,  // ask again
+    STEPPER_ARM_FAILED // an error has been raised
+} stepper_arm_t;
+
+typedef struct {
+    // Whether `axes` can be homed, as far as the drivers go; raises why not.
+    err_t (*check)(uint32_t axes);
+    // Called from stepper_background() while the machine stands, again and again until it is not
+    // busy; must not wait. If it fails, that is how the cycle ends. With `on` before an approach of
+    // `axes`; without for the same axes behind it, and however the cycle ends: even if arming them
+    // has failed or is still under way. Behind the end (stepper_cycle() is none) nobody looks at
+    // the error of disarming: the function has to tell it.
+    stepper_arm_t (*arm)(uint32_t axes, bool on);
+} stepper_homing_hook_t;
+
+// NULL: nobody. The hook has to stay valid.
+void stepper_homing_set_hook(const stepper_homing_hook_t *hook);
 
 // ---- Probing ------------------------------------------------------------------------------------
 
