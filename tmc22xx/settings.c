@@ -14,7 +14,7 @@
 #define SCALE_MIN_OF_HIGH_RANGE 16 // below it the low range is finer
 
 // What a set-up writes besides the settings.
-#define HOLD_DELAY 8 // 175 ms for each step down
+#define HOLD_DELAY 8  // 175 ms for each step down
 #define POWER_DOWN 20 // 437 ms
 
 static double full_scale_mv(bool vsense) {
@@ -48,8 +48,7 @@ err_t tmc22xx_current(double ma, double r_sense_ohm, tmc22xx_current_t *current)
 
 uint32_t tmc22xx_ihold_irun(const tmc22xx_current_t *current, double hold_percent) {
     uint32_t hold = (uint32_t)(current->scale * hold_percent / 100.0);
-    return TMC22XX_BITS(IHOLD_IRUN, IHOLD, hold) |
-           TMC22XX_BITS(IHOLD_IRUN, IRUN, current->scale) |
+    return TMC22XX_BITS(IHOLD_IRUN, IHOLD, hold) | TMC22XX_BITS(IHOLD_IRUN, IRUN, current->scale) |
            TMC22XX_BITS(IHOLD_IRUN, IHOLDDELAY, HOLD_DELAY);
 }
 
@@ -136,12 +135,12 @@ err_t tmc22xx_setup_writes(const tmc22xx_settings_t *settings,
     if (err != ERR_OK) {
         return err;
     }
-    writes[0] = (tmc22xx_write_t){TMC22XX_GCONF, gconf(settings->stealth)};
-    writes[1] = (tmc22xx_write_t){TMC22XX_IHOLD_IRUN,
-                                  tmc22xx_ihold_irun(&run, settings->hold_percent)};
-    writes[2] = (tmc22xx_write_t){TMC22XX_TPOWERDOWN, POWER_DOWN};
-    writes[3] = (tmc22xx_write_t){TMC22XX_CHOPCONF, chopconf(run.vsense, settings->microsteps)};
-    writes[4] = (tmc22xx_write_t){TMC22XX_PWMCONF, pwmconf()};
+    writes[0] = (tmc22xx_write_t){TMC22XX_REG_GCONF, gconf(settings->stealth)};
+    writes[1] =
+        (tmc22xx_write_t){TMC22XX_REG_IHOLD_IRUN, tmc22xx_ihold_irun(&run, settings->hold_percent)};
+    writes[2] = (tmc22xx_write_t){TMC22XX_REG_TPOWERDOWN, POWER_DOWN};
+    writes[3] = (tmc22xx_write_t){TMC22XX_REG_CHOPCONF, chopconf(run.vsense, settings->microsteps)};
+    writes[4] = (tmc22xx_write_t){TMC22XX_REG_PWMCONF, pwmconf()};
     if (current != NULL) {
         *current = run;
     }

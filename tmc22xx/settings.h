@@ -1,7 +1,7 @@
-// What a user sets about a driver, as registers, and registers as what a user wants to know: current
-// in mA, microsteps, speeds. Values and formulas: datasheet TMC2209 rev. 1.09, sections 5.2, 5.5
-// and 9; the registers of a set-up are those of the PicoMite firmware, to the bit.
-// Context: main loop.
+// What a user sets about a driver, as registers, and registers as what a user wants to know:
+// current in mA, microsteps, speeds. Passed on by tmc22xx.h. Values and formulas: datasheet TMC2209
+// rev. 1.09, sections 5.2, 5.5 and 9; the registers of a set-up are those of the PicoMite firmware,
+// to the bit. Context: main loop.
 #ifndef TMC22XX_SETTINGS_H
 #define TMC22XX_SETTINGS_H
 
@@ -10,11 +10,11 @@
 
 #include "base/base.h"
 
-#define TMC22XX_CLOCK_HZ 12000000u  // internal clock, as the maker trims it
-#define TMC22XX_TSTEP_MAX 0xFFFFFu  // TSTEP at standstill, and the highest threshold
+#define TMC22XX_CLOCK_HZ 12000000u // internal clock, as the maker trims it
+#define TMC22XX_TSTEP_MAX 0xFFFFFu // TSTEP at standstill, and the highest threshold
 #define TMC22XX_R_SENSE_MIN_OHM 0.08
 #define TMC22XX_R_SENSE_MAX_OHM 0.2
-#define TMC22XX_R_SENSE_OHM 0.11    // of most modules
+#define TMC22XX_R_SENSE_OHM 0.11 // of most modules
 #define TMC22XX_RUN_MA_MAX 2000
 
 typedef struct {
@@ -65,7 +65,8 @@ int tmc22xx_mres(unsigned microsteps);
 unsigned tmc22xx_microsteps(unsigned mres);
 
 // TSTEP (clocks of a 1/256 microstep, rounded, 1..TMC22XX_TSTEP_MAX) at a speed in steps/s of so
-// many microsteps, and back: the speed above which TSTEP is below this value. 0 steps/s is standstill.
+// many microsteps, and back: the speed above which TSTEP is below this value. 0 steps/s is
+// standstill.
 uint32_t tmc22xx_tstep(double steps_per_s, unsigned microsteps);
 double tmc22xx_steps_per_s(uint32_t tstep, unsigned microsteps);
 

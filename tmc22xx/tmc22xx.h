@@ -15,23 +15,13 @@
 #include <stdint.h>
 
 #include "base/base.h"
+#include "tmc22xx/settings.h" // tmc22xx_settings_t, currents, TSTEP
 
 #define TMC22XX_DRIVERS 8u
 #define TMC22XX_ADDRESSES 4u // on one wire
 #define TMC22XX_NO_AXIS 0xFFu
 #define TMC22XX_READS 8u // registers that one job reads, at most
 #define TMC22XX_BAUD 115200u
-
-typedef struct {
-    uint8_t tx_gpio;
-    uint8_t address; // 0 to 3; a TMC2208 has 0
-    uint16_t chip;   // 2208 or 2209
-    double run_ma;   // RMS
-    double hold_percent;
-    uint16_t microsteps; // 1 to 256, a power of two
-    double r_sense_ohm;
-    bool stealth; // StealthChop, otherwise SpreadCycle
-} tmc22xx_settings_t;
 
 // ---- Wires --------------------------------------------------------------------------------------
 

@@ -8,7 +8,8 @@
 // Where each register's fields begin in `fields`: a register takes the number of its first field,
 // and BEFORE makes the next one begin there again.
 enum {
-#define REGISTER(name, address, access, chips, reset, help) FIRST_##name, BEFORE_##name = FIRST_##name - 1,
+#define REGISTER(name, address, access, chips, reset, help)                                        \
+    FIRST_##name, BEFORE_##name = FIRST_##name - 1,
 #define FIELD(reg, name, low, size, chips, sign, unit, help) AT_##reg##_##name,
 #define END(reg) BEHIND_##reg, BACK_##reg = BEHIND_##reg - 1,
 #include "tmc22xx/registers.def"
@@ -19,7 +20,7 @@ enum {
 
 static const tmc22xx_field_t fields[] = {
 #define REGISTER(name, address, access, chips, reset, help)
-#define FIELD(reg, name, low, size, chips, sign, unit, help) \
+#define FIELD(reg, name, low, size, chips, sign, unit, help)                                       \
     {#name, (low), (size), (sign), (chips), (unit), (help)},
 #define END(reg)
 #include "tmc22xx/registers.def"
@@ -29,9 +30,15 @@ static const tmc22xx_field_t fields[] = {
 };
 
 const tmc22xx_register_t tmc22xx_registers[] = {
-#define REGISTER(name, address, access, chips, reset, help)                            \
-    {#name, (address), (access), (chips), BEHIND_##name - FIRST_##name, (reset), \
-     &fields[FIRST_##name], (help)},
+#define REGISTER(name, address, access, chips, reset, help)                                        \
+    {#name,                                                                                        \
+     (address),                                                                                    \
+     (access),                                                                                     \
+     (chips),                                                                                      \
+     BEHIND_##name - FIRST_##name,                                                                 \
+     (reset),                                                                                      \
+     &fields[FIRST_##name],                                                                        \
+     (help)},
 #define FIELD(reg, name, low, size, chips, sign, unit, help)
 #define END(reg)
 #include "tmc22xx/registers.def"
@@ -89,7 +96,7 @@ const tmc22xx_register_t *tmc22xx_register(const char *name, size_t length) {
         }
     }
     if (is_name("SLAVECONF", name, length)) {
-        return tmc22xx_register_at(TMC22XX_NODECONF);
+        return tmc22xx_register_at(TMC22XX_REG_NODECONF);
     }
     return of_number(name, length);
 }

@@ -1,6 +1,6 @@
-// The registers of the TMC2208 and TMC2209 with their fields, as one table (registers.def), named as
-// in the datasheets: TMC2209 rev. 1.09 and TMC2202/TMC2208/TMC2224 rev. 1.13, chapter 5. It is for
-// whoever shows or takes registers by name; who makes or takes apart values in code uses
+// The registers of the TMC2208 and TMC2209 with their fields, as one table (registers.def), named
+// as in the datasheets: TMC2209 rev. 1.09 and TMC2202/TMC2208/TMC2224 rev. 1.13, chapter 5. It is
+// for whoever shows or takes registers by name; who makes or takes apart values in code uses
 // TMC22XX_BITS() and TMC22XX_TAKE(). Context: any; everything is constant.
 #ifndef TMC22XX_REGISTERS_H
 #define TMC22XX_REGISTERS_H
@@ -57,10 +57,11 @@ unsigned tmc22xx_chip_bit(unsigned chip);
 uint32_t tmc22xx_field(uint32_t value, const tmc22xx_field_t *field);
 int32_t tmc22xx_field_signed(uint32_t value, const tmc22xx_field_t *field);
 
-// Addresses TMC22XX_GCONF and so on; place and width of fields, TMC22XX_GCONF_shaft_LOW and _SIZE.
+// Addresses, TMC22XX_REG_GCONF and so on; place and width of the fields, TMC22XX_GCONF_shaft_LOW
+// and _SIZE.
 enum {
-#define REGISTER(name, address, access, chips, reset, help) TMC22XX_##name = (address),
-#define FIELD(reg, name, low, size, chips, sign, unit, help) \
+#define REGISTER(name, address, access, chips, reset, help) TMC22XX_REG_##name = (address),
+#define FIELD(reg, name, low, size, chips, sign, unit, help)                                       \
     TMC22XX_##reg##_##name##_LOW = (low), TMC22XX_##reg##_##name##_SIZE = (size),
 #define END(reg)
 #include "tmc22xx/registers.def"
@@ -69,14 +70,13 @@ enum {
 #undef END
 };
 
-// TMC22XX_MASK(CHOPCONF, MRES): the bits of a field; TMC22XX_BITS(CHOPCONF, MRES, 4): the field as 4,
-// what does not fit is cut; TMC22XX_TAKE(value, CHOPCONF, MRES): the field's part of `value`.
-#define TMC22XX_MASK(reg, name)                               \
-    ((0xFFFFFFFFu >> (32 - TMC22XX_##reg##_##name##_SIZE))    \
-     << TMC22XX_##reg##_##name##_LOW)
-#define TMC22XX_BITS(reg, name, number)                                 \
+// TMC22XX_MASK(CHOPCONF, MRES): the bits of a field; TMC22XX_BITS(CHOPCONF, MRES, 4): the field as
+// 4, what does not fit is cut; TMC22XX_TAKE(value, CHOPCONF, MRES): the field's part of `value`.
+#define TMC22XX_MASK(reg, name)                                                                    \
+    ((0xFFFFFFFFu >> (32 - TMC22XX_##reg##_##name##_SIZE)) << TMC22XX_##reg##_##name##_LOW)
+#define TMC22XX_BITS(reg, name, number)                                                            \
     (((uint32_t)(number) << TMC22XX_##reg##_##name##_LOW) & TMC22XX_MASK(reg, name))
-#define TMC22XX_TAKE(value, reg, name) \
+#define TMC22XX_TAKE(value, reg, name)                                                             \
     (((value) & TMC22XX_MASK(reg, name)) >> TMC22XX_##reg##_##name##_LOW)
 
 #endif
