@@ -63,6 +63,10 @@ void basic_wake(void) {
     console_wake();
 }
 
+void basic_wake_at(uint64_t time_us) {
+    console_wake_at(time_us);
+}
+
 static void nothing(void) {}
 
 static void show_banner(void) {

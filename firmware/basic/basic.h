@@ -132,4 +132,8 @@ void *basic_scratch(size_t size);
 // For the background hook: there is more to do, so nothing is to sleep before it is called again.
 void basic_wake(void);
 
+// For the background hook: it wants its next turn at this time at the latest, however long whoever
+// waits would sleep. Holds for one turn.
+void basic_wake_at(uint64_t time_us);
+
 #endif

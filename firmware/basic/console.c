@@ -36,6 +36,7 @@ static struct {
     uint64_t full_since_us; // 0: the ring is not full
     unsigned seen;          // bytes that came, input or not; free-running
     void (*background)(void);
+    uint64_t wake_us; // when the background wants its next turn
     console_control_t on_control;
     int hot_key; // -1: none
     void (*hot_key_pressed)(void);
@@ -316,16 +317,23 @@ void console_background(void) {
 void console_wait(uint64_t until_us) {
     unsigned seen = console.seen;
     console_poll();
+    console.wake_us = UINT64_MAX;
     console.background(); // may print what came of it
     if (console.output_length != 0) {
         console_flush();
     }
     if (!console.break_pending && console.seen == seen) {
-        hal_idle(watchdog_next_us(until_us));
+        hal_idle(watchdog_next_us(console.wake_us < until_us ? console.wake_us : until_us));
         console_poll();
     }
 }
 
 void console_wake(void) {
     console.seen++;
+}
+
+void console_wake_at(uint64_t time_us) {
+    if (time_us < console.wake_us) {
+        console.wake_us = time_us;
+    }
 }

@@ -105,4 +105,8 @@ void console_wait(uint64_t until_us);
 // Something has happened that a console_wait() under way must not sleep over.
 void console_wake(void);
 
+// In the background: a console_wait() sleeps until this time at the latest. Forgotten at the next
+// turn.
+void console_wake_at(uint64_t time_us);
+
 #endif

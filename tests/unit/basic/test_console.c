@@ -335,6 +335,27 @@ static void test_background_and_statements(void) {
     TEST_ASSERT_GREATER_OR_EQUAL_UINT(101 / 16, board.backgrounds);
 }
 
+static unsigned turns_wanted; // of the background, 1 ms apart
+
+static void want_turns(void) {
+    if (turns_wanted > 0) {
+        turns_wanted--;
+        basic_wake_at(board.time_us + 1000);
+    }
+}
+
+static void test_the_background_gets_the_turns_it_asks_for(void) {
+    board_session("");
+    unsigned idle = board.backgrounds;
+    uint64_t begin_us = board.time_us;
+    turns_wanted = 20;
+    board.on_background = want_turns;
+    board_session("PAUSE 50\r");
+    TEST_ASSERT_EQUAL_UINT(0, turns_wanted);
+    TEST_ASSERT_UINT64_WITHIN(2000, 50000, board.time_us - begin_us); // and the pause is as long
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT(20, board.backgrounds - idle);
+}
+
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_a_pasted_line_is_echoed_in_one_write);
@@ -370,5 +391,6 @@ int main(void) {
     RUN_TEST(test_without_ctrl_c_as_break_key_there_is_time_for_it_at_the_start);
     RUN_TEST(test_ctrl_c_in_the_startup_keeps_the_program_from_starting);
     RUN_TEST(test_background_and_statements);
+    RUN_TEST(test_the_background_gets_the_turns_it_asks_for);
     return UNITY_END();
 }
