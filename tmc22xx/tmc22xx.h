@@ -97,8 +97,8 @@ err_t tmc22xx_set_up(const tmc22xx_settings_t *settings);
 // Changes. A negative `hold_percent` leaves it as it is.
 err_t tmc22xx_set_current(unsigned driver, double run_ma, double hold_percent);
 
-typedef enum { TMC22XX_SGTHRS, TMC22XX_TCOOLTHRS, TMC22XX_TPWMTHRS } tmc22xx_threshold_t;
-err_t tmc22xx_set_threshold(unsigned driver, tmc22xx_threshold_t which, uint32_t value);
+// `reg`: that of SGTHRS, TCOOLTHRS or TPWMTHRS. Errors: the chip has none.
+err_t tmc22xx_set_threshold(unsigned driver, uint8_t reg, uint32_t value);
 
 // The fields of COOLCONF; `semin` 0 switches CoolStep off.
 typedef struct {
