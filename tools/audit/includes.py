@@ -52,6 +52,7 @@ ALSO_FACES = {
     "firmware/hal/hal_io.h",
     "firmware/hal/hal_serial.h",
     "firmware/hal/hal_spi.h",
+    "firmware/hal/hal_wire.h",
     "firmware/hal/pins.h",
     "firmware/hal/slices.h",
     "firmware/io/io_bus.h",
@@ -71,7 +72,7 @@ ALSO_FACES = {
 
 # Includes that lead out of the table: the inline half of hal.h, and what the build generates.
 HAL_PORT = ("firmware/hal/hal.h", "hal_port.h")
-GENERATED = {"version.h"}
+GENERATED = {"version.h", "tmc_uart.pio.h"}
 
 C_LIBRARY = set(
     """

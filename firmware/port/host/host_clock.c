@@ -6,7 +6,9 @@
 #include "host_inputs.h"
 #include "host_serial.h"
 #include "host_tick.h"
+#include "host_wire.h"
 #include "simulate.h"
+#include "simulate_wire.h"
 
 static uint64_t clock_now_ns;
 
@@ -22,15 +24,17 @@ uint64_t hal_time_us(void) {
     return clock_now_ns / 1000;
 }
 
+static uint64_t min_ns(uint64_t a, uint64_t b) {
+    return a < b ? a : b;
+}
+
 // The next event that is no tick.
 static uint64_t next_other_ns(void) {
-    uint64_t input_ns = host_inputs_next_ns();
-    uint64_t alarm_ns = host_alarm_next_ns();
-    uint64_t serial_ns = host_serial_next_ns();
-    uint64_t next_ns = input_ns < alarm_ns ? input_ns : alarm_ns;
-    uint64_t switch_ns = simulate_next_ns();
-    next_ns = next_ns < serial_ns ? next_ns : serial_ns;
-    return next_ns < switch_ns ? next_ns : switch_ns;
+    uint64_t next_ns = min_ns(host_inputs_next_ns(), host_alarm_next_ns());
+    next_ns = min_ns(next_ns, host_serial_next_ns());
+    next_ns = min_ns(next_ns, simulate_next_ns());
+    next_ns = min_ns(next_ns, simulate_wire_next_ns());
+    return min_ns(next_ns, host_wire_next_ns());
 }
 
 uint64_t host_clock_next_event_ns(void) {
@@ -39,7 +43,7 @@ uint64_t host_clock_next_event_ns(void) {
     return tick_ns < other_ns ? tick_ns : other_ns;
 }
 
-// The input edge, the received byte or the alarm that is due at `now_ns`. True: something for the
+// The input edge, the received byte, the bit of a wire or the alarm that is due at `now_ns`. True: something for the
 // main loop to see.
 static bool run_other(uint64_t now_ns) {
     clock_now_ns = now_ns;
@@ -54,6 +58,13 @@ static bool run_other(uint64_t now_ns) {
     if (simulate_next_ns() <= now_ns) {
         simulate_run(now_ns);
         return true;
+    }
+    if (simulate_wire_next_ns() <= now_ns) { // before the firmware samples the same bit
+        simulate_wire_run(now_ns);
+        return false;
+    }
+    if (host_wire_next_ns() <= now_ns) {
+        return host_wire_run(now_ns);
     }
     host_alarm_run();
     return false;

@@ -9,6 +9,7 @@
 #include "host_pwm.h"
 #include "host_system.h"
 #include "host_trace.h"
+#include "host_wire.h"
 #include "simulate.h"
 
 static struct {
@@ -27,6 +28,7 @@ static void show(uint32_t levels, uint32_t recorded) {
     if (changed != 0) {
         host_trace_edges(host_clock_now_ns(), changed & recorded, levels);
         host_counters_edges(host_clock_now_ns(), changed, levels);
+        host_wire_edges(host_clock_now_ns(), changed, levels);
         simulate_edges(host_clock_now_ns(), changed, levels);
     }
 }
@@ -107,5 +109,10 @@ void host_pads_drive(unsigned gpio, bool level) {
     uint32_t mask = checked_mask(gpio);
     pads.driven |= mask;
     set_bits(&pads.driven_levels, mask, level);
+    settle(pads.outputs);
+}
+
+void host_pads_let_go(unsigned gpio) {
+    pads.driven &= ~checked_mask(gpio);
     settle(pads.outputs);
 }

@@ -6,8 +6,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-// The outside world drives a pin from now on; there is no way to let go of it. While the pin is an
-// output the firmware wins and this level is seen when it becomes an input.
+// The outside world drives a pin from now on, or lets go of it. While the pin is an output the
+// firmware wins and this level is seen when it becomes an input.
 void host_pads_drive(unsigned gpio, bool level);
+void host_pads_let_go(unsigned gpio);
 
 #endif
