@@ -105,7 +105,7 @@ static err_t check(const tmc22xx_settings_t *settings) {
 }
 
 static uint32_t gconf(bool stealth) {
-    return TMC22XX_BITS(GCONF, en_spreadCycle, !stealth) | TMC22XX_BITS(GCONF, pdn_disable, 1) |
+    return TMC22XX_BITS(GCONF, en_SpreadCycle, !stealth) | TMC22XX_BITS(GCONF, pdn_disable, 1) |
            TMC22XX_BITS(GCONF, mstep_reg_select, 1) | TMC22XX_BITS(GCONF, multistep_filt, 1);
 }
 

@@ -16,6 +16,7 @@
 
 #include "base/base.h"
 #include "tmc22xx/settings.h" // tmc22xx_settings_t, currents, TSTEP
+#include "tmc22xx/status.h"   // conditions, temperature
 
 #define TMC22XX_DRIVERS 8u
 #define TMC22XX_ADDRESSES 4u // on one wire
