@@ -225,6 +225,81 @@ class Emulator:
         """Drive a pin low while the axis is between two steps (both included), else high."""
         self.request("add_switch", name=name, pin=pin, **{"from": begin}, to=end, bounces=bounces)
 
+    def add_tmc2209(
+        self,
+        name: str,
+        tx: int,
+        *,
+        rx: int | None = None,
+        address: int = 0,
+        axis: str | None = None,
+        diag: int | None = None,
+        stops: tuple[int | None, int | None] = (None, None),
+        **options: Any,  # noqa: ANN401
+    ) -> None:
+        """Wire a TMC2209 to a pin (and a receiving one); `axis` gives it steps, `diag` is driven.
+
+        `stops`: the steps of the axis between which the motor can move. Options, see
+        tests/emulator/src/tmc2209.mjs: chip (2209, 2208), clock (1.02: 2 % fast), skew (of the bits
+        of answers), load (0 to 1), microsteps (of the axis's steps), measured ("motor", "random").
+        """
+        low, high = stops
+        self.request(
+            "add_tmc",
+            name=name,
+            tx=tx,
+            rx=rx,
+            address=address,
+            axis=axis,
+            diag=diag,
+            low=low,
+            high=high,
+            **options,
+        )
+
+    def tmc_fault(
+        self,
+        fault: str,
+        driver: str | None = None,
+        *,
+        times: int | None = None,
+        for_ms: float | None = None,
+        at_ns: float | None = None,
+        **options: float,
+    ) -> None:
+        """Let a driver (or the first one) have a fault: now, or at a time.
+
+        Counted in exchanges (`times`) or milliseconds: silent, deaf, bad-crc, late (delay_ms),
+        garbled. In milliseconds: unplugged, unpowered, over-temperature (celsius), short, open-load
+        (bits of DRV_STATUS), stall (at: a step). At once: brown-out. Without an end it stays.
+        """
+        limits = {"times": times, "for_ms": for_ms}
+        limits = {key: value for key, value in limits.items() if value is not None}
+        self.request("tmc_fault", name=fault, driver=driver, at_ns=at_ns, **limits, **options)
+
+    def tmc_heal(self, driver: str | None = None) -> None:
+        """End the faults of a driver, or of all."""
+        self.request("tmc_heal", driver=driver)
+
+    def tmc(self, name: str) -> dict[str, int]:
+        """Return every register of a driver by name, also those that only it itself can read."""
+        registers: dict[str, int] = self.request("tmc", name=name)["registers"]
+        return registers
+
+    def tmc_motor(self, name: str) -> dict[str, float]:
+        """Return field, rotor and lag of a driver's motor (1/256 full steps), and its slips."""
+        motor: dict[str, float] = self.request("tmc", name=name)["motor"]
+        return motor
+
+    def tmc_log(self) -> list[dict[str, Any]]:
+        """Take the log of the wires: each datagram that the board has sent, each fault that began.
+
+        time_ns, tx, kind (read, write, fault), address, register, bytes, sent; what a driver adds:
+        driver, value (that it answered with), ifcnt (behind a write), reply_ns, fault.
+        """
+        entries: list[dict[str, Any]] = self.request("tmc_log")["entries"]
+        return entries
+
     def axis(self, name: str) -> int:
         """Return the step at which an axis stands."""
         return int(self.request("axis", name=name)["at"])

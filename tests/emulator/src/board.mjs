@@ -9,6 +9,7 @@ import { Axis } from './machine.mjs';
 import { RAM_SIZE } from './executor.mjs';
 import { Profile } from './profile.mjs';
 import { Recorder } from './recorder.mjs';
+import { TmcBench } from './tmc_bench.mjs';
 import { readUf2 } from './uf2.mjs';
 
 const PINS = 30;
@@ -33,8 +34,10 @@ export class Board {
         this.baseNanos = 0; // virtual time at the last restart
         this.tickRunsBefore = [];
         this.storageFile = storage;
+        this.tmc = new TmcBench(this);
         this.shared = {
-            flash: readUf2(uf2), ram: new Uint8Array(RAM_SIZE), external: new Array(PINS).fill(null),
+            flash: readUf2(uf2), ram: new Uint8Array(RAM_SIZE),
+            external: new Array(PINS).fill(null), weak: new Array(PINS).fill(false),
             bootrom: readBootrom(bootrom), survivors: undefined, cyclesBefore: 0,
         };
         if (storage !== null && fs.existsSync(storage)) this.loadStorage(storage);
@@ -45,6 +48,7 @@ export class Board {
         this.chip = new Chip(this.shared, {
             onFault: (text, pc) => this.fault(text, pc),
             onEdge: (gpio, level) => this.edge(gpio, level),
+            onPad: (gpio) => this.tmc.pad(gpio),
             onSerial: (bytes) => this.serial(bytes),
             onConnected: () => {},
             onUart: (index, byte) => { this.uartOutput[index] += String.fromCharCode(byte); },
@@ -52,6 +56,7 @@ export class Board {
         this.profile.begin(() => this.chip.cycles(), this.chip.R);
         this.chip.nvic.profile = this.profile;
         this.watch();
+        this.tmc.settle();
     }
 
     // Virtual time in nanoseconds. (While a chip is being built it has no clock yet: its time is 0.)

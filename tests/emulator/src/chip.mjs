@@ -25,8 +25,8 @@ import { UsbHost } from './usb.mjs';
 const BOOT2_SIZE = 256, BOOT2_RAM = 0x20041f00; // where the boot ROM copies the second stage and runs it
 
 export class Chip {
-    // `shared`: what outlives the chip: { flash, ram, external, bootrom, survivors, cyclesBefore };
-    // `listener`: onFault(text, pc), onEdge(gpio, level), onSerial(bytes), onConnected(), onUart(byte).
+    // `shared`: what outlives the chip: { flash, ram, external, weak, bootrom, survivors, cyclesBefore };
+    // `listener`: onFault(text, pc), onEdge(gpio, level), onPad(gpio), onSerial(bytes), onConnected(), onUart(byte).
     constructor(shared, listener) {
         this.S = createState();
         this.S.cyclesBefore = shared.cyclesBefore;
@@ -73,9 +73,12 @@ export class Chip {
         this.execute = createExecutor({ S, R, memory: this.memory, bus: this.bus, system });
     }
 
-    buildPeripherals({ external, survivors }, listener) {
+    buildPeripherals({ external, weak, survivors }, listener) {
         const { S, mcu, clock } = this;
-        this.pads = new Pads({ mcu, external, onEdge: listener.onEdge, onFault: (text) => listener.onFault(text, S.pc) });
+        this.pads = new Pads({
+            mcu, external, weak, onEdge: listener.onEdge, onPad: listener.onPad,
+            onFault: (text) => listener.onFault(text, S.pc),
+        });
         installSio({ mcu, pads: this.pads });
         installTimer({ mcu, clock });
         this.survivors = installReset({ mcu, S, survivors });

@@ -48,6 +48,11 @@ const operations = {
     add_axis({ name, ...options }) { board.addAxis(name, options); },
     add_switch({ name, ...options }) { board.addSwitch(name, options); },
     axis({ name }) { return { at: board.axes.get(name).at }; },
+    add_tmc({ name, ...options }) { board.tmc.add(name, options); },
+    tmc_fault({ name, driver = null, at_ns: at = null, ...options }) { board.tmc.inject(name, driver, at, options); },
+    tmc_heal({ driver = null }) { board.tmc.heal(driver); },
+    tmc({ name }) { return { registers: board.tmc.driver(name).dump(), motor: board.tmc.motor(name) }; },
+    tmc_log() { return { entries: board.tmc.log.splice(0) }; },
     set_analog({ channel, reading }) { board.chip.mcu.adc.channelValues[channel] = reading; },
     level({ gpio }) { return { level: board.level(gpio) }; },
     inputs({ file }) {

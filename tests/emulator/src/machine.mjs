@@ -5,6 +5,7 @@ export class Axis {
     constructor({ step, dir, inverted = false, at = 0 }) {
         Object.assign(this, { step, dir, inverted, at });
         this.switches = [];
+        this.driver = null; // that turns a motor with the steps (tmc2209.mjs); without one each step is made
     }
 
     // `pin` is driven to `level` from step `from` to step `to`, otherwise to the other one. For
@@ -30,7 +31,8 @@ export class Axis {
     // An edge of an output pin.
     edge(gpio, level, board) {
         if (gpio !== this.step || level === 0) return;
-        this.at += (board.level(this.dir) === 1) !== this.inverted ? 1 : -1;
+        const way = (board.level(this.dir) === 1) !== this.inverted ? 1 : -1;
+        this.at = this.driver === null ? this.at + way : this.driver.step(way);
         this.switches.forEach((contact) => this.look(contact, board));
     }
 }

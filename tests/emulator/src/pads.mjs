@@ -6,9 +6,11 @@ const PULL_UP = 3, PULL_DOWN = 4;
 
 export class Pads {
     // `external`: for each pin 0, 1 or null (nothing connected); kept across resets of the chip.
-    // `onEdge(gpio, level)`: an output changed. `onFault(text)`: two drivers fight.
-    constructor({ mcu, external, onEdge, onFault }) {
-        Object.assign(this, { mcu, external, onEdge, onFault });
+    // `weak`: for each pin whether that is behind a resistor, so that the pin itself wins; kept as well.
+    // `onEdge(gpio, level)`: an output changed. `onPad(gpio)`: the level of a pin has changed, or whether it is driven.
+    // `onFault(text)`: two drivers fight.
+    constructor({ mcu, external, weak, onEdge, onPad, onFault }) {
+        Object.assign(this, { mcu, external, weak, onEdge, onPad, onFault });
         this.inputs = 0; // what GPIO_IN reads
         this.driven = new Array(mcu.gpio.length).fill(false);
         this.fighting = new Array(mcu.gpio.length).fill(false);
@@ -44,23 +46,27 @@ export class Pads {
 
     update(pin, gpio, state) {
         const level = this.level(pin, gpio, state), driven = state < LOW_OR_HIGH;
+        const before = this.driven[gpio], changed = level !== pin.rawInputValue;
         this.checkFight(gpio, driven, level);
-        if (level !== pin.rawInputValue) {
-            pin.setInputValue(level);
-            if (driven || this.driven[gpio]) this.onEdge(gpio, level ? 1 : 0);
-        }
         this.driven[gpio] = driven;
+        if (changed) {
+            pin.setInputValue(level);
+            if (driven || before) this.onEdge(gpio, level ? 1 : 0);
+        }
+        if (changed || driven !== before) this.onPad(gpio);
     }
 
     checkFight(gpio, driven, level) {
-        const external = this.external[gpio], fights = driven && external !== null && (external === 1) !== level;
+        const external = this.external[gpio];
+        const fights = driven && external !== null && !this.weak[gpio] && (external === 1) !== level;
         if (fights && !this.fighting[gpio]) this.onFault(`GPIO${gpio} is driven from both sides`);
         this.fighting[gpio] = fights;
     }
 
-    // Something outside drives the pin to 0 or 1 or lets go of it (null).
-    connect(gpio, level) {
+    // Something outside drives the pin to 0 or 1 or lets go of it (null); through a resistor if `weak`.
+    connect(gpio, level, weak = false) {
         this.external[gpio] = level;
+        this.weak[gpio] = weak;
         const pin = this.mcu.gpio[gpio];
         this.update(pin, gpio, pin.value);
     }
