@@ -10,6 +10,7 @@ extern const basic_rows_t stepper_gcode_rows;
 extern const basic_rows_t stepper_homing_rows;
 extern const basic_rows_t stepper_report_rows;
 extern const basic_rows_t stepper_safety_rows;
+extern const basic_rows_t tmc_rows;
 extern const basic_rows_t pin_rows;
 extern const basic_rows_t bus_rows;
 

@@ -175,11 +175,15 @@ def typed(
     *lines: str,
     events: list[Event] | tuple = (),
     switches: list[Switch] | tuple = (),
+    drivers: list[str] | tuple = (),
     code: int | None = 0,
 ) -> Session:
-    """Type the lines one after the other; `events` happen at their times."""
+    """Type the lines one after the other; `events` happen at their times.
+
+    `drivers` are further lines of the machine: motor drivers on their wires.
+    """
     trace, machine = folder / "edges.csv", folder / "machine.txt"
-    machine.write_text("".join(row + "\n" for row in machine_rows(switches)))
+    machine.write_text("".join(row + "\n" for row in [*machine_rows(switches), *drivers]))
     text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
     inputs = write_events(folder / "events.csv", events)
     output = _run(["--trace", trace, "--inputs", inputs, "--machine", machine], text, code)
