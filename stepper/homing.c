@@ -70,8 +70,8 @@ static double direction(axis_id_t axis) {
     return home_config_switch_of(axis).max ? 1.0 : -1.0;
 }
 
-// True when the drivers of the group are as they should be; otherwise that takes a while, or was the
-// end of the cycle.
+// True when the drivers of the group are as they should be; otherwise that takes a while, or was
+// the end of the cycle.
 static bool drivers_are(bool on) {
     stepper_arm_t answer = homing_hook_arm(homing.group, on);
     if (answer == STEPPER_ARM_FAILED) {

@@ -1,5 +1,5 @@
-// The hook that arms drivers for homing: nothing moves while it is busy, its failure is the cycle's,
-// and however a cycle ends, what was to be armed is disarmed.
+// The hook that arms drivers for homing: nothing moves while it is busy, its failure is that of the
+// cycle, and however a cycle ends, what was to be armed is disarmed.
 #include <string.h>
 #include <unity.h>
 
@@ -248,8 +248,7 @@ static void test_stops_while_it_is_busy(void) {
             stop(way);
             wait_ms(1);
             TEST_ASSERT_EQUAL(STEPPER_CYCLE_NONE, stepper_cycle());
-            TEST_ASSERT_EQUAL(way == BY_CLOSE ? ERR_OK : ERR_HOMING_FAILED,
-                              stepper_cycle_result());
+            TEST_ASSERT_EQUAL(way == BY_CLOSE ? ERR_OK : ERR_HOMING_FAILED, stepper_cycle_result());
             check_disarmed();
             TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
             TEST_ASSERT_FALSE(driver.moved);
