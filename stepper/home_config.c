@@ -113,7 +113,7 @@ bool home_config_latch_is_set(axis_id_t axis) {
     return homes.axes[axis].latch >= 0.0f;
 }
 
-bool home_config_halts(axis_id_t axis) {
+bool stepper_home_halts(axis_id_t axis) {
     float latch = homes.axes[axis].latch;
     return latch == 0.0f || (latch < 0.0f && home_config_switch_of(axis).high);
 }
@@ -174,7 +174,7 @@ void stepper_home_groups(uint8_t groups[STEPPER_HOME_AXES]) {
 // position from an approach in which they would disturb it: it is homed alone.
 static uint32_t alone_if_it_must(uint32_t group) {
     for (axis_id_t axis = 0; axis < STEPPER_HOME_AXES; axis++) {
-        if (((group >> axis) & 1) && home_config_halts(axis)) {
+        if (((group >> axis) & 1) && stepper_home_halts(axis)) {
             return 1u << axis;
         }
     }

@@ -24,10 +24,6 @@ axis_id_t home_config_on_either_end(uint32_t group);
 // Errors: axis not configured, no switch.
 err_t home_config_check(axis_id_t axis);
 
-// The first approach ends without braking: the input may be a driver's that has noticed a stall. So
-// it is if there is no second approach, or if it is active high and nobody has chosen a latch feed.
-bool home_config_halts(axis_id_t axis);
-
 // Somebody has chosen the latch feed of the axis.
 bool home_config_latch_is_set(axis_id_t axis);
 

@@ -156,7 +156,7 @@ static void search(void) {
     cycle_until_t until = {0};
     FOR_AXES(axis, moving) {
         home_switch_t found = home_config_switch_of(axis);
-        bool halts = homing.phase == PHASE_APPROACH && home_config_halts(axis);
+        bool halts = homing.phase == PHASE_APPROACH && stepper_home_halts(axis);
         until.pins |= found.pin;
         until.levels |= found.high == row->towards ? found.pin : 0;
         until.halts |= halts ? found.pin : 0;

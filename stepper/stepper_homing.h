@@ -66,6 +66,10 @@ err_t stepper_home(uint32_t axes);
 // Whether stepper_home() would be refused because of an axis or its switch; raises it.
 err_t stepper_home_check(uint32_t axes);
 
+// Whether the first approach of an axis that has a home switch ends without braking, as said at
+// `latch` above: its input may be a driver's that has noticed a stall.
+bool stepper_home_halts(axis_id_t axis);
+
 // For STATUS: the axes of the group that is homed now, and what they do ("approaching").
 const char *stepper_homing_phase(uint32_t *axes);
 
