@@ -63,6 +63,8 @@ export class Receiver {
         this.bytes = [];
         this.bitNanos = 1e9 / BAUD_BEFORE;
         this.riseNanos = -Infinity; // since when the line has been high
+        this.beginNanos = 0;     // of the datagram under way
+        this.endNanos = -Infinity; // of the last one
         this.turn = 0;           // outdates what has been scheduled
     }
 
@@ -80,6 +82,7 @@ export class Receiver {
 
     begin(nanos) {
         this.state = MEASURE;
+        this.beginNanos = nanos;
         this.edges = [nanos];
         this.bytes = [];
     }
@@ -147,8 +150,12 @@ export class Receiver {
     finish() {
         const { bytes, bitNanos } = this;
         if (crc8(bytes.slice(0, -1)) !== bytes.at(-1)) return this.fail('check sum');
+        const early = this.beginNanos - this.endNanos < RECOVERY_BITS * bitNanos;
+        this.endNanos = this.edges[0] + 10 * bitNanos;
+        // The answer of another driver with a SENDDELAY below 2.
+        if (bytes[1] === MASTER && early) return this.fail('answer too early');
         this.state = IDLE;
-        this.onDatagram(bytes, this.edges[0] + 10 * bitNanos, bitNanos);
+        this.onDatagram(bytes, this.endNanos, bitNanos);
     }
 
     // The start bit of a byte behind the first.

@@ -198,6 +198,23 @@ test('only the addressed driver answers; a 2208 is another chip', () => {
     assert.deepEqual(bench.faults, []);
 });
 
+test('an early answer upsets the other drivers until the line has been idle', () => {
+    for (const [delay, pause, answers] of [[0, 5, false], [0, 13, true], [2, 5, true]]) {
+        const bench = new Bench(), bitNanos = 1e9 / BAUD;
+        bench.tmc.add('Y', { tx: TX, address: 1 });
+        bench.write(0x03, delay << 8);
+        const end = bench.send(readRequest(0, 0x02)) + (8 * (delay | 1) + 80 + pause) * bitNanos;
+        bench.run(end);
+        const { edges, endNanos } = edgesOf(readRequest(1, 0x02), end, bitNanos);
+        bench.drive(TX, 1);
+        edges.forEach(({ nanos, level }) => bench.at(nanos, () => bench.drive(TX, level)));
+        bench.run(endNanos);
+        bench.drive(TX, null);
+        bench.trace = [];
+        assert.equal(bench.answer().bytes.length === 8, answers, `SENDDELAY ${delay}, ${pause} bit times`);
+    }
+});
+
 test('what is no datagram is taken for none, and the next one is understood', () => {
     const bench = new Bench();
     const wrong = writeRequest(0, 0x6c, 1);
