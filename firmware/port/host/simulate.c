@@ -2,6 +2,7 @@
 #include "simulate.h"
 
 #include "host_pads.h"
+#include "simulate_tmc_wire.h"
 
 static struct {
     struct {
@@ -37,8 +38,12 @@ static void axis_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t
         return;
     }
     axis->pulses++;
-    axis->last_step_ns = time_ns;
     bool up = ((levels & pins_mask(axis->dir_gpio)) != 0) != axis->dir_inverted;
+    axis->last_step_ns = time_ns;
+    if (axis->mover != NULL) {
+        axis->mover(axis->mover_state, time_ns, up);
+        return;
+    }
     int64_t next = axis->position_steps + (up ? 1 : -1);
     bool blocked = axis->has_stops && (next < axis->stop_low_steps || next > axis->stop_high_steps);
     if (!is_missed(axis) && !blocked) {
@@ -48,4 +53,16 @@ static void axis_edges(void *state, uint64_t time_ns, uint32_t changed, uint32_t
 
 bool simulate_axis_attach(simulate_axis_t *axis) {
     return simulate_observe(axis_edges, axis);
+}
+
+uint64_t simulate_next_ns(void) {
+    uint64_t switch_ns = simulate_switch_next_ns();
+    uint64_t driver_ns = simulate_tmc_next_ns();
+    return switch_ns < driver_ns ? switch_ns : driver_ns;
+}
+
+void simulate_run(uint64_t now_ns) {
+    simulate_switch_run(now_ns);
+    simulate_tmc_run(now_ns);
+    simulate_tmc_wire_run(now_ns);
 }

@@ -39,6 +39,10 @@ typedef struct {
     bool has_stops;         // the axis ends at the two that follow: a step beyond is lost
     int64_t stop_low_steps, stop_high_steps;
 
+    // What moves the axis at a pulse, instead of one step; NULL: nothing. It sets position_steps.
+    void (*mover)(void *state, uint64_t time_ns, bool up);
+    void *mover_state;
+
     int64_t position_steps; // where the axis is
     uint64_t pulses;        // rising edges seen, missed ones included
     uint64_t last_step_ns;  // time of the last pulse; 0: none yet
@@ -74,7 +78,11 @@ typedef struct {
 bool simulate_switch_attach(simulate_switch_t *limit);
 
 // Time of the next edge that a switch makes by itself, UINT64_MAX: none; and making those due at
-// `now_ns`. For host_clock.c.
+// `now_ns`.
+uint64_t simulate_switch_next_ns(void);
+void simulate_switch_run(uint64_t now_ns);
+
+// The same of all that is simulated here. For host_clock.c.
 uint64_t simulate_next_ns(void);
 void simulate_run(uint64_t now_ns);
 

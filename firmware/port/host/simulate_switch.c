@@ -92,7 +92,7 @@ bool simulate_switch_attach(simulate_switch_t *limit) {
     return true;
 }
 
-uint64_t simulate_next_ns(void) {
+uint64_t simulate_switch_next_ns(void) {
     uint64_t next_ns = HOST_CLOCK_NEVER;
     for (unsigned i = 0; i < switches.count; i++) {
         uint64_t edge_ns = switches.list[i]->edge_ns;
@@ -101,7 +101,7 @@ uint64_t simulate_next_ns(void) {
     return next_ns;
 }
 
-void simulate_run(uint64_t now_ns) {
+void simulate_switch_run(uint64_t now_ns) {
     for (unsigned i = 0; i < switches.count; i++) {
         simulate_switch_t *limit = switches.list[i];
         if (limit->edge_ns == 0 || limit->edge_ns > now_ns) {
