@@ -48,7 +48,7 @@ def test_an_inverted_axis_with_a_switch_that_is_high(tmp_path):
 @pytest.mark.parametrize(
     ("machine", "said"),
     [
-        ("axle X step=2 dir=3", "machine.txt:1: a line begins with axis, switch or stall"),
+        ("axle X step=2 dir=3", "machine.txt:1: a line begins with axis, switch, stall, tmc"),
         ("\naxis X step=2", "machine.txt:2: an axis needs step= and dir=: 'X'"),
         ("axis X step=2 dir=31", "no such pin: 'dir=31'"),
         ("axis X step=2 dir=3 at=1x", "no whole number in 'at=1x'"),

@@ -3,6 +3,7 @@
 //   axis X step=2 dir=3 at=4000 stops=-80:16000
 //   switch pin=10 axis=X from=-400 to=0 bounce_us=400 hysteresis=6
 //   stall pin=11 axis=Y from=-400 to=0 rate=2000 hold_us=500
+//   tmc2209 tx=5 address=0 axis=X diag=10
 #include "host_machine.h"
 
 #include <errno.h>
@@ -11,6 +12,8 @@
 #include <string.h>
 
 #include "hal/hal.h"
+#include "host_machine_tmc.h"
+#include "host_machine_words.h"
 #include "host_system.h"
 #include "simulate.h"
 
@@ -24,100 +27,38 @@ static struct {
     unsigned axis_count;
     simulate_switch_t switches[SWITCHES_MAX];
     unsigned switch_count;
-
-    const char *path;
-    unsigned line;
 } machine;
-
-static _Noreturn void complain(const char *what, const char *word) {
-    host_system_fail("%s:%u: %s '%s'", machine.path, machine.line, what, word);
-}
-
-// ---- Values -------------------------------------------------------------------------------------
-
-// The text behind "key=", NULL if the word is something else.
-static const char *value_of(const char *word, const char *key) {
-    size_t length = strlen(key);
-    return strncmp(word, key, length) == 0 && word[length] == '=' ? word + length + 1 : NULL;
-}
-
-static long long read_number(const char *word, const char *text, char end_char, const char **end) {
-    char *behind;
-    errno = 0;
-    long long value = strtoll(text, &behind, 10);
-    if (behind == text || *behind != end_char || errno != 0) {
-        complain("no whole number in", word);
-    }
-    *end = behind + 1;
-    return value;
-}
-
-// True if the word is this key; then its number is taken.
-static bool take_number(const char *word, const char *key, int64_t *value) {
-    const char *text = value_of(word, key);
-    if (text != NULL) {
-        *value = read_number(word, text, '\0', &text);
-    }
-    return text != NULL;
-}
-
-static bool take_unsigned(const char *word, const char *key, uint32_t *value) {
-    int64_t number = 0;
-    if (!take_number(word, key, &number)) {
-        return false;
-    }
-    if (number < 0 || number > 1000000000) {
-        complain("out of range (0 to 1000000000):", word);
-    }
-    *value = (uint32_t)number;
-    return true;
-}
-
-// A GPIO, with or without GP before it.
-static bool take_pin(const char *word, const char *key, unsigned *gpio) {
-    const char *text = value_of(word, key);
-    if (text == NULL) {
-        return false;
-    }
-    const char *end;
-    long long number = read_number(word, strncmp(text, "GP", 2) == 0 ? text + 2 : text, '\0', &end);
-    if (number < 0 || number >= PINS_COUNT) {
-        complain("no such pin:", word);
-    }
-    *gpio = (unsigned)number;
-    return true;
-}
 
 // ---- Lines --------------------------------------------------------------------------------------
 
-static const simulate_axis_t *find_axis(const char *name) {
+static simulate_axis_t *find_axis(const char *name) {
     for (unsigned i = 0; i < machine.axis_count; i++) {
         if (strcmp(machine.names[i], name) == 0) {
             return &machine.axes[i];
         }
     }
-    complain("no axis before this line is called", name);
+    host_machine_complain("no axis before this line is called", name);
 }
 
 static void read_axis_word(simulate_axis_t *axis, const char *word) {
-    const char *stops = value_of(word, "stops");
+    const char *stops = host_machine_value(word, "stops");
     if (stops != NULL) {
         axis->has_stops = true;
-        axis->stop_low_steps = read_number(word, stops, ':', &stops);
-        axis->stop_high_steps = read_number(word, stops, '\0', &stops);
+        axis->stop_low_steps = host_machine_number(word, stops, ':', &stops);
+        axis->stop_high_steps = host_machine_number(word, stops, '\0', &stops);
     } else if (strcmp(word, "inverted") == 0) {
         axis->dir_inverted = true;
-    } else if (!take_pin(word, "step", &axis->step_gpio) &&
-               !take_pin(word, "dir", &axis->dir_gpio) &&
-               !take_number(word, "at", &axis->position_steps)) {
-        complain("unknown in the line of an axis:", word);
+    } else if (!host_machine_take_pin(word, "step", &axis->step_gpio) &&
+               !host_machine_take_pin(word, "dir", &axis->dir_gpio) &&
+               !host_machine_take_number(word, "at", &axis->position_steps)) {
+        host_machine_complain("unknown in the line of an axis:", word);
     }
 }
 
 static void read_axis(char *rest) {
     const char *name = strtok_r(NULL, " \t", &rest);
     if (machine.axis_count == AXES_MAX || name == NULL || strlen(name) >= NAME_MAX_LENGTH) {
-        complain("too many axes, or no short name:", name != NULL ? name : "");
+        host_machine_complain("too many axes, or no short name:", name != NULL ? name : "");
     }
     simulate_axis_t *axis = &machine.axes[machine.axis_count];
     *axis = (simulate_axis_t){.step_gpio = PINS_COUNT, .dir_gpio = PINS_COUNT};
@@ -126,15 +67,15 @@ static void read_axis(char *rest) {
         read_axis_word(axis, word);
     }
     if (axis->step_gpio == PINS_COUNT || axis->dir_gpio == PINS_COUNT) {
-        complain("an axis needs step= and dir=:", name);
+        host_machine_complain("an axis needs step= and dir=:", name);
     }
     if (!simulate_axis_attach(axis)) {
-        complain("too many parts", "");
+        host_machine_complain("too many parts", "");
     }
 }
 
 static void read_switch_word(simulate_switch_t *limit, const char *word) {
-    const char *axis = value_of(word, "axis");
+    const char *axis = host_machine_value(word, "axis");
     if (axis != NULL) {
         limit->axis = find_axis(axis);
     } else if (strcmp(word, "high") == 0) {
@@ -143,21 +84,21 @@ static void read_switch_word(simulate_switch_t *limit, const char *word) {
         limit->fault = SIMULATE_FAULT_NEVER_CLOSES;
     } else if (strcmp(word, "never-opens") == 0) {
         limit->fault = SIMULATE_FAULT_NEVER_OPENS;
-    } else if (!take_pin(word, "pin", &limit->gpio) &&
-               !take_number(word, "from", &limit->from_steps) &&
-               !take_number(word, "to", &limit->to_steps) &&
-               !take_unsigned(word, "hysteresis", &limit->hysteresis_steps) &&
-               !take_unsigned(word, "bounce_us", &limit->bounce_us) &&
-               !take_unsigned(word, "seed", &limit->random) &&
-               !take_unsigned(word, "rate", &limit->stall_rate_hz) &&
-               !take_unsigned(word, "hold_us", &limit->hold_us)) {
-        complain("unknown in the line of a switch:", word);
+    } else if (!host_machine_take_pin(word, "pin", &limit->gpio) &&
+               !host_machine_take_number(word, "from", &limit->from_steps) &&
+               !host_machine_take_number(word, "to", &limit->to_steps) &&
+               !host_machine_take_unsigned(word, "hysteresis", &limit->hysteresis_steps) &&
+               !host_machine_take_unsigned(word, "bounce_us", &limit->bounce_us) &&
+               !host_machine_take_unsigned(word, "seed", &limit->random) &&
+               !host_machine_take_unsigned(word, "rate", &limit->stall_rate_hz) &&
+               !host_machine_take_unsigned(word, "hold_us", &limit->hold_us)) {
+        host_machine_complain("unknown in the line of a switch:", word);
     }
 }
 
 static void read_switch(char *rest, bool stall) {
     if (machine.switch_count == SWITCHES_MAX) {
-        complain("too many switches", "");
+        host_machine_complain("too many switches", "");
     }
     simulate_switch_t *limit = &machine.switches[machine.switch_count++];
     *limit = (simulate_switch_t){.gpio = PINS_COUNT,
@@ -170,10 +111,10 @@ static void read_switch(char *rest, bool stall) {
         read_switch_word(limit, word);
     }
     if (limit->gpio == PINS_COUNT || limit->axis == NULL) {
-        complain("a switch needs pin= and axis=", "");
+        host_machine_complain("a switch needs pin= and axis=", "");
     }
     if (!simulate_switch_attach(limit)) {
-        complain("too many parts", "");
+        host_machine_complain("too many parts", "");
     }
 }
 
@@ -187,8 +128,11 @@ static void read_line(char *text) {
         read_axis(rest);
     } else if (strcmp(kind, "switch") == 0 || strcmp(kind, "stall") == 0) {
         read_switch(rest, kind[1] == 't');
+    } else if (strcmp(kind, "tmc2209") == 0 || strcmp(kind, "tmc2208") == 0) {
+        host_machine_tmc(kind[6] == '9' ? 2209 : 2208, find_axis, rest);
     } else {
-        complain("a line begins with axis, switch or stall, not", kind);
+        host_machine_complain("a line begins with axis, switch, stall, tmc2209 or tmc2208, not",
+                              kind);
     }
 }
 
@@ -197,11 +141,11 @@ void host_machine_load(const char *path) {
     if (file == NULL) {
         host_system_fail("%s: %s", path, strerror(errno));
     }
-    machine.path = path;
+    host_machine_words_file(path);
     char *text = NULL;
     size_t size = 0;
     while (getline(&text, &size, file) >= 0) {
-        machine.line++;
+        host_machine_words_next_line();
         text[strcspn(text, "\r\n")] = '\0';
         read_line(text);
     }

@@ -26,8 +26,8 @@ const char *simulate_faults_name(simulate_chip_fault_t fault) {
 
 simulate_chip_fault_t simulate_faults_by_name(const char *name, size_t length) {
     unsigned i = 0;
-    while (i < SIMULATE_CHIP_FAULTS && (strlen(fault_names[i]) != length ||
-                                   memcmp(fault_names[i], name, length) != 0)) {
+    while (i < SIMULATE_CHIP_FAULTS &&
+           (strlen(fault_names[i]) != length || memcmp(fault_names[i], name, length) != 0)) {
         i++;
     }
     return (simulate_chip_fault_t)i;

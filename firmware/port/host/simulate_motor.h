@@ -17,9 +17,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define SIMULATE_MOTOR_FULL_STEP 256  // in units of a place
-#define SIMULATE_MOTOR_PERIOD 1024    // from one place of rest to the next
-#define SIMULATE_MOTOR_LAG_MAX 512    // beyond, the rotor slips
+#define SIMULATE_MOTOR_FULL_STEP 256 // in units of a place
+#define SIMULATE_MOTOR_PERIOD 1024   // from one place of rest to the next
+#define SIMULATE_MOTOR_LAG_MAX 512   // beyond, the rotor slips
 #define SIMULATE_MOTOR_NO_END INT64_MAX
 
 // Fill in the first group; the rest starts at zero, but pole and rotor at the same place.
@@ -28,9 +28,9 @@ typedef struct {
     uint32_t load_ma;            // a current (rms) of which the torque just overcomes the friction
 
     int64_t pole, rotor;
-    uint64_t slips;        // so far
-    int64_t since_slip;    // way of the field since the last one
-    uint32_t torque_1024;  // the greatest since simulate_motor_take_torque(), 1024: full
+    uint64_t slips;       // so far
+    int64_t since_slip;   // way of the field since the last one
+    uint32_t torque_1024; // the greatest since simulate_motor_take_torque(), 1024: full
 } simulate_motor_t;
 
 // A motor whose rotor stands at a place, without load and obstacles.

@@ -57,8 +57,8 @@ static unsigned find(const simulate_tmc_t *tmc, unsigned address) {
     while (i < REGISTER_COUNT && chip_registers[i].address != address) {
         i++;
     }
-    bool missing = i < REGISTER_COUNT && tmc->chip != 2209 &&
-                   (chip_registers[i].access & ONLY_2209) != 0;
+    bool missing =
+        i < REGISTER_COUNT && tmc->chip != 2209 && (chip_registers[i].access & ONLY_2209) != 0;
     return missing ? REGISTER_COUNT : i;
 }
 

@@ -42,8 +42,8 @@ typedef struct {
     unsigned microsteps;   // such microsteps
     uint32_t sense_mohm;   // without the chip's own 20
     uint32_t clock_khz;
-    int32_t skew_1000;     // its bits are so much faster than those it has heard
-    uint32_t load_ma;      // of the motor, see simulate_motor_t
+    int32_t skew_1000; // its bits are so much faster than those it has heard
+    uint32_t load_ma;  // of the motor, see simulate_motor_t
 
     simulate_faults_t faults;
     simulate_motor_t motor;

@@ -24,8 +24,7 @@ static uint64_t pulse_back_ns(const simulate_tmc_t *tmc, unsigned back) {
 
 static void note_pulse(simulate_tmc_t *tmc, uint64_t time_ns) {
     unsigned size = SIMULATE_TMC_INTERVALS + 1;
-    if (tmc->pulses > 0 &&
-        time_ns - pulse_back_ns(tmc, 0) >= clocks_ns(tmc, STANDSTILL_CLOCKS)) {
+    if (tmc->pulses > 0 && time_ns - pulse_back_ns(tmc, 0) >= clocks_ns(tmc, STANDSTILL_CLOCKS)) {
         tmc->pulses = 0;
     }
     tmc->pulse_ns[tmc->pulse_next] = time_ns;
@@ -53,8 +52,7 @@ uint32_t simulate_tmc_state_tstep(const simulate_tmc_t *tmc, uint64_t now_ns) {
 }
 
 static bool is_standing(const simulate_tmc_t *tmc, uint64_t now_ns) {
-    return tmc->pulses == 0 ||
-           now_ns - pulse_back_ns(tmc, 0) >= clocks_ns(tmc, STANDSTILL_CLOCKS);
+    return tmc->pulses == 0 || now_ns - pulse_back_ns(tmc, 0) >= clocks_ns(tmc, STANDSTILL_CLOCKS);
 }
 
 static bool is_stealth(const simulate_tmc_t *tmc, uint64_t now_ns) {
@@ -66,8 +64,8 @@ static bool is_stealth(const simulate_tmc_t *tmc, uint64_t now_ns) {
 // Fast enough for StallGuard and CoolStep, and in the right mode.
 static bool is_load_measured(const simulate_tmc_t *tmc, uint64_t now_ns) {
     uint32_t tstep = simulate_tmc_state_tstep(tmc, now_ns);
-    return tmc->chip == 2209 && is_stealth(tmc, now_ns) &&
-           tmc->registers[TMC_TCOOLTHRS] >= tstep && tstep > tmc->registers[TMC_TPWMTHRS];
+    return tmc->chip == 2209 && is_stealth(tmc, now_ns) && tmc->registers[TMC_TCOOLTHRS] >= tstep &&
+           tstep > tmc->registers[TMC_TPWMTHRS];
 }
 
 bool simulate_tmc_state_stalled(const simulate_tmc_t *tmc, uint64_t now_ns) {

@@ -133,8 +133,8 @@ static void obey(simulate_tmc_wire_t *wire, unsigned size, simulate_wire_words_t
         return;
     }
     if (size == DATAGRAM_SIZE) {
-        uint32_t value = (uint32_t)data[0] << 24 | (uint32_t)data[1] << 16 |
-                         (uint32_t)data[2] << 8 | data[3];
+        uint32_t value =
+            (uint32_t)data[0] << 24 | (uint32_t)data[1] << 16 | (uint32_t)data[2] << 8 | data[3];
         wire->tmc->writes++;
         simulate_tmc_write(wire->tmc, address, value, wire->end_ns);
         tell(wire, true, value);
@@ -158,7 +158,8 @@ static bool hears_nothing(simulate_tmc_wire_t *wire, uint64_t now_ns) {
            strikes(wire, SIMULATE_CHIP_UNPLUGGED, now_ns);
 }
 
-static void spoil_answer(simulate_tmc_wire_t *wire, uint64_t now_ns, simulate_wire_words_t *answer) {
+static void spoil_answer(simulate_tmc_wire_t *wire, uint64_t now_ns,
+                         simulate_wire_words_t *answer) {
     if (strikes(wire, SIMULATE_CHIP_SILENT, now_ns)) {
         answer->size = 0;
     } else if (strikes(wire, SIMULATE_CHIP_BAD_CRC, now_ns)) {
