@@ -4,13 +4,13 @@
 #include "base/base.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
-#define IN(reg, severity, bits, match, text) \
+#define IN(reg, severity, bits, match, text)                                                       \
     {TMC22XX_REG_##reg, (severity), (bits), (match), (text)}
 #define BIT(reg, name) TMC22XX_MASK(reg, name)
 #define SET(reg, severity, name, text) IN(reg, severity, BIT(reg, name), BIT(reg, name), text)
 #define CLEAR(reg, severity, name, text) IN(reg, severity, BIT(reg, name), 0, text)
 // One bit is set and another one is not.
-#define SET_WITHOUT(reg, severity, name, other, text) \
+#define SET_WITHOUT(reg, severity, name, other, text)                                              \
     IN(reg, severity, BIT(reg, name) | BIT(reg, other), BIT(reg, name), text)
 
 // An open coil is seen by its current, so at standstill the flags mean nothing.
