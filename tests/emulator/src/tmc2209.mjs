@@ -56,6 +56,7 @@ export class Tmc2209 {
         if (bytes[1] !== this.address || !this.powered) return;
         const { entry } = this.wire, register = bytes[2] & ~WRITE;
         if (this.fault('deaf', entry)) return;
+        this.wire.compare(bytes);
         if (bytes[2] & WRITE) {
             this.write(register, wordOf(bytes));
             this.note(entry, { ifcnt: this.get('IFCNT') });
@@ -246,7 +247,10 @@ export class Tmc2209 {
     inject(name, { times = Infinity, for_ms: forMs = Infinity, ...options }) {
         const kind = this.checkFault(name);
         const until = this.board.now + forMs * MS;
-        this.wire.log.push({ time_ns: this.board.now, tx: this.wire.tx, kind: 'fault', driver: this.name, fault: name });
+        this.wire.log.push({
+            time_ns: this.board.now, until_ns: Math.min(until, Number.MAX_SAFE_INTEGER), tx: this.wire.tx, kind: 'fault',
+            driver: this.name, fault: name,
+        });
         if (kind === COUNTED) {
             this.faults.push({ name, times, until, ...options });
             return;

@@ -41,12 +41,14 @@ export class Wire {
         this.plugged = true;
         this.garbled = 0;         // so many more exchanges get noise
         this.garbledReply = false;
+        this.compareWith = null;  // the bytes of the datagram that the board sent last
+        this.understood = null;   // and those that a driver took for it
         this.entry = null;        // of the datagram that the board began last
         this.fighting = false;
         this.listener = new Receiver({
             at: (nanos, action) => board.at(nanos, action), clockHz: LISTENER_HZ,
             onSync: (start, bitNanos) => this.begun(start, bitNanos),
-            onDatagram: (bytes) => Object.assign(this.entry, describe(bytes)),
+            onDatagram: (bytes) => this.sent(bytes),
             onError: (why) => { if (this.entry !== null && this.entry.kind === undefined) this.entry.error = why; },
         });
     }
@@ -131,10 +133,29 @@ export class Wire {
         this.entry = { time_ns: start, tx: this.tx, bit_ns: bitNanos };
         this.log.push(this.entry);
         this.garbledReply = false;
+        this.compareWith = this.understood = null;
         if (this.garbled === 0) return;
         this.garbled -= 1;
         if (this.random() < 0.5) this.noiseWithin(start + 5 * bitNanos, 33, bitNanos);
         else this.garbledReply = true;
+    }
+
+    // The board has sent a datagram; noise may have made another one of it for the drivers, which decode it at the same time.
+    sent(bytes) {
+        Object.assign(this.entry, describe(bytes));
+        this.compareWith = bytes;
+        this.markMistaken();
+    }
+
+    compare(bytes) {
+        this.understood = bytes;
+        this.markMistaken();
+    }
+
+    markMistaken() {
+        const { compareWith, understood } = this;
+        if (compareWith === null || understood === null) return;
+        if (compareWith.some((byte, index) => byte !== understood[index])) this.entry.mistook = understood;
     }
 
     // A driver is about to answer: noise in its bits, or a false start bit before them.
