@@ -52,10 +52,11 @@ fuzz: ## feed garbage to the prompt and the G-code reader for FUZZ_SECONDS (600)
 	@$(call build,asan,-DSTEPMITE_TESTS=ON,stepmite_fuzz)
 	@build/asan/stepmite_fuzz --seconds $(FUZZ_SECONDS)
 
-reference: ## docs/reference.md from the firmware's tables
+reference: ## docs/reference.md, docs/tmc22xx-registers.md from the firmware's tables
 	@tools/setup host
-	@$(call build,host,,stepmite_reference)
+	@$(call build,host,,stepmite_reference stepmite_register_page)
 	@build/host/tools/reference/stepmite_reference >docs/reference.md
+	@build/host/tools/reference/stepmite_register_page >docs/tmc22xx-registers.md
 
 format: ## put our C and Python files into the common form
 	@tools/setup format

@@ -6,8 +6,11 @@ import re
 import subprocess
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build/host/tools/reference/stepmite_reference"
+REGISTERS_PROGRAM = ROOT / "build/host/tools/reference/stepmite_register_page"
 
 
 def test_reference_page_is_current() -> None:
@@ -16,11 +19,23 @@ def test_reference_page_is_current() -> None:
     assert (ROOT / "docs/reference.md").read_text() == made
 
 
-def test_every_argument_is_explained() -> None:
-    """No row of the page has an empty place."""
-    for line in (ROOT / "docs/reference.md").read_text().splitlines():
+def test_registers_page_is_current() -> None:
+    """docs/tmc22xx-registers.md was made from the table as it is; if not: `make reference`."""
+    made = subprocess.run([REGISTERS_PROGRAM], capture_output=True, text=True, check=True).stdout
+    assert (ROOT / "docs/tmc22xx-registers.md").read_text() == made
+
+
+@pytest.mark.parametrize("page", ["reference.md", "tmc22xx-registers.md"])
+def test_every_row_is_complete(page: str) -> None:
+    """No row of the page has an empty place, and all have as many as the head."""
+    head = ""
+    for line in (ROOT / "docs" / page).read_text().replace("\\|", "/").splitlines():
         if line.startswith("|"):
+            head = head or line
             assert all(cell.strip() for cell in line.strip("|").split("|")), line
+            assert line.count("|") == head.count("|"), line
+        else:
+            head = ""
 
 
 def test_the_table_of_what_is_refused_names_every_command() -> None:
