@@ -21,7 +21,7 @@
 #define WORDS_MAX 4u // of a FIFO
 
 static_assert(16u + BITS_A_BYTE * HAL_WIRE_SEND_MAX <= 32u * WORDS_MAX, "a frame fits the FIFO");
-static_assert(REPLY_BITS_A_BYTE *HAL_WIRE_REPLY_MAX <= 32u * WORDS_MAX, "so does a reply");
+static_assert(REPLY_BITS_A_BYTE * HAL_WIRE_REPLY_MAX <= 32u * WORDS_MAX, "so does a reply");
 
 // The exchange under way.
 static struct {
