@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#include "wire_check.h"
+
 #define PULSE_GPIO 2u
 #define INPUT_GPIO 3u
 #define UART_TX_GPIO 0u
@@ -259,6 +261,28 @@ static void obey(char command) {
     }
 }
 
+// What follows a 'w', up to the end of the line, is for the check of the wires. True: taken.
+static bool take_for_wire(char c) {
+    static char line[80];
+    static size_t length;
+    static bool taking;
+    if (!taking) {
+        taking = c == 'w';
+        length = 0;
+        return taking;
+    }
+    if (c != '\n' && length < sizeof line - 1) {
+        line[length++] = c;
+        return true;
+    }
+    taking = false;
+    line[length] = '\0';
+    say("wire ");
+    say(wire_check(line));
+    say("\r\n");
+    return true;
+}
+
 int main(int argc, char **argv) {
     hal_init(argc, argv);
     hal_pin_output(PULSE_GPIO, false);
@@ -267,7 +291,9 @@ int main(int argc, char **argv) {
         uint8_t bytes[16];
         size_t count = hal_console_read(bytes, sizeof bytes);
         for (size_t i = 0; i < count; i++) {
-            obey((char)bytes[i]);
+            if (!take_for_wire((char)bytes[i])) {
+                obey((char)bytes[i]);
+            }
         }
         if (count == 0) {
             hal_idle(UINT64_MAX);

@@ -14,7 +14,7 @@
 #define PIO pio0
 #define MACHINE 0u // exchanges
 #define SETTER 1u  // never runs, only sets pins
-#define CYCLES_A_BIT 8u
+#define CYCLES_A_BIT 16u
 #define BITS_A_BYTE 10u // with start and stop bit
 #define REPLY_BITS_A_BYTE 9u
 #define STOP_BIT (1u << 8)
@@ -86,8 +86,7 @@ static void prepare(const hal_wire_t *wire) {
     sm_config_set_jmp_pin(&config, wire->rx_gpio);
     sm_config_set_out_shift(&config, true, true, 32);
     sm_config_set_in_shift(&config, true, true, 32);
-    uint32_t divisor = wire->baud * CYCLES_A_BIT / 16u; // in sixteenths, to stay in 32 bits
-    uint32_t divider_256ths = (SYS_CLK_HZ * 16u + divisor / 2u) / divisor;
+    uint32_t divider_256ths = (SYS_CLK_HZ * (256u / CYCLES_A_BIT) + wire->baud / 2u) / wire->baud;
     sm_config_set_clkdiv_int_frac8(&config, divider_256ths >> 8, (uint8_t)divider_256ths);
     pio_sm_init(PIO, MACHINE, 0, &config);
 }
