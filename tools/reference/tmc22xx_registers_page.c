@@ -89,7 +89,8 @@ int main(void) {
            "datasheets (TMC2209 rev. 1.09,\n"
            "TMC2202/TMC2208/TMC2224 rev. 1.13), where all is told at length. Times and speeds are "
            "those of the internal clock of\n"
-           "12 MHz. The values after power-up are those of a chip whose OTP memory is empty.\n\n");
+           "12 MHz. The values after power-up are the published ones; a chip's OTP memory may say "
+           "otherwise.\n\n");
     print_overview();
     for (size_t i = 0; i < tmc22xx_register_count; i++) {
         print_register(&tmc22xx_registers[i]);
