@@ -31,6 +31,14 @@ static struct {
 
 // ---- Lines --------------------------------------------------------------------------------------
 
+const simulate_axis_t *host_machine_axis(unsigned index, const char **name) {
+    if (index >= machine.axis_count) {
+        return NULL;
+    }
+    *name = machine.names[index];
+    return &machine.axes[index];
+}
+
 static simulate_axis_t *find_axis(const char *name) {
     for (unsigned i = 0; i < machine.axis_count; i++) {
         if (strcmp(machine.names[i], name) == 0) {

@@ -18,6 +18,7 @@
 
 static const char usage[] =
     "usage: stepmite [--trace EDGES.csv] [--inputs EVENTS.csv] [--machine MACHINE.txt]\n"
+    "                [--machine-report REPORT.jsonl]\n"
     "                [--flash IMAGE] [--flash-cut N[,before|,torn|,after]]\n"
     "                [--virtual|--realtime] [--help] [--version] [FILE.bas]\n";
 
@@ -32,8 +33,11 @@ static const char help[] =
     "  --trace EDGES.csv    write every edge of every output pin: time_ns,gpio,level\n"
     "  --inputs EVENTS.csv  edges to apply to input pins, same columns, times from the start;\n"
     "                       a level may be a voltage (1.65V), and gpio TEMP with 25.5C\n"
-    "  --machine FILE       simulate axes at the step and direction pins and the limit switches\n"
-    "                       they press: docs/user-guide.md has the format\n"
+    "  --machine FILE       simulate axes at the step and direction pins, the limit switches\n"
+    "                       they press, TMC2209 drivers: docs/user-guide.md has the format\n"
+    "  --machine-report FILE\n"
+    "                       write what the drivers are told and answer, and in the last line\n"
+    "                       how axes and drivers are at the end\n"
     "  --flash IMAGE        keep the flash storage in this file; it is made if it is missing\n"
     "  --flash-cut N        cut the power at the Nth flash write: before it, after it, or in the\n"
     "                       middle (torn, the default); leaves at once with code 3\n"
@@ -51,6 +55,7 @@ enum {
     OPTION_TRACE = 256,
     OPTION_INPUTS,
     OPTION_MACHINE,
+    OPTION_MACHINE_REPORT,
     OPTION_FLASH,
     OPTION_FLASH_CUT,
     OPTION_VIRTUAL,
@@ -63,6 +68,7 @@ static const struct option long_options[] = {
     {"trace", required_argument, NULL, OPTION_TRACE},
     {"inputs", required_argument, NULL, OPTION_INPUTS},
     {"machine", required_argument, NULL, OPTION_MACHINE},
+    {"machine-report", required_argument, NULL, OPTION_MACHINE_REPORT},
     {"flash", required_argument, NULL, OPTION_FLASH},
     {"flash-cut", required_argument, NULL, OPTION_FLASH_CUT},
     {"virtual", no_argument, NULL, OPTION_VIRTUAL},
@@ -168,6 +174,9 @@ const host_options_t *host_options_parse(int argc, char **argv) {
             break;
         case OPTION_MACHINE:
             options.machine_path = optarg;
+            break;
+        case OPTION_MACHINE_REPORT:
+            options.report_path = optarg;
             break;
         case OPTION_FLASH:
             options.flash_path = optarg;

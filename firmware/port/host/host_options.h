@@ -10,6 +10,7 @@ typedef struct {
     const char *trace_path;   // NULL: edges are not recorded
     const char *inputs_path;  // NULL: no input events
     const char *machine_path; // NULL: nothing hangs at the pins
+    const char *report_path;  // NULL: nobody asks what became of the machine
     const char *flash_path;   // NULL: storage is forgotten at exit
     unsigned flash_cut;       // cut the power at this flash write; 0: never
     host_storage_cut_t flash_cut_kind;

@@ -11,6 +11,7 @@
 #include "host_inputs.h"
 #include "host_machine.h"
 #include "host_options.h"
+#include "host_report.h"
 #include "host_signals.h"
 #include "host_storage.h"
 #include "host_terminal.h"
@@ -35,6 +36,9 @@ void hal_init(int argc, char **argv) {
     if (options->machine_path != NULL) {
         host_machine_load(options->machine_path);
     }
+    if (options->report_path != NULL) {
+        host_report_open(options->report_path);
+    }
     if (options->trace_path != NULL) {
         host_trace_open(options->trace_path);
     }
@@ -43,6 +47,7 @@ void hal_init(int argc, char **argv) {
     // waiting, by a reader who is slow.
     atexit(host_terminal_restore);
     atexit(host_console_finish);
+    atexit(host_report_close);
     atexit(host_trace_close);
     host_terminal_raw();
     host_idle_init(options->realtime);

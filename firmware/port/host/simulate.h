@@ -9,7 +9,7 @@
 
 #include "hal/hal.h"
 
-#define SIMULATE_OBSERVERS_MAX 16
+#define SIMULATE_OBSERVERS_MAX 20
 
 // `changed`: the pins with an edge; `levels`: all pins after it.
 typedef void (*simulate_observer_t)(void *state, uint64_t time_ns, uint32_t changed,
