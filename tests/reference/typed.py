@@ -1,17 +1,19 @@
 """A session at the prompt of the host program, in virtual time, with a world around the pins.
 
 `typed()` types lines, applies edges to inputs at their times, lets the axes press their switches
-and brings back the answer to each line, when it was typed and every edge of the outputs.
+and brings back the answer to each line, when it was typed, every edge of the outputs, and what
+became of the simulated drivers.
 """
 
 from __future__ import annotations
 
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from simulated_drivers import Driver, Report
 
 from stepmite.trace import AxisPins, AxisTrace, Edges, axis_trace
 
@@ -92,15 +94,29 @@ class Switch:
         )
 
 
-def machine_rows(switches: list[Switch] | tuple) -> list[str]:
-    """The description of the axes that have switches, and of these."""
-    ends = {switch.axis: switch.at_steps() for switch in switches if switch.stall_rate > 0}
+def _ends(switches: list[Switch] | tuple, drivers: list[Driver]) -> dict[str, str]:
+    """The ends of the axes that have some, as low:high in steps."""
+    ends = {s.axis: f"{s.at_steps()}:1000000" for s in switches if s.stall_rate > 0}
+    for driver in drivers:
+        if driver.ends_mm is not None:
+            scale = PINS[driver.axis].steps_per_unit
+            ends[driver.axis] = ":".join(f"{round(end * scale)}" for end in driver.ends_mm)
+    return ends
+
+
+def machine_rows(
+    switches: list[Switch] | tuple, drivers: list[Driver | str] | tuple = ()
+) -> list[str]:
+    """The axes that have switches or drivers, and these; a driver may be a line as it is."""
+    chips = [driver for driver in drivers if isinstance(driver, Driver)]
+    ends = _ends(switches, chips)
     rows = []
-    for name in dict.fromkeys(switch.axis for switch in switches):
+    for name in dict.fromkeys(part.axis for part in (*switches, *chips) if part.axis):
         pins = PINS[name]
-        stops = f" stops={ends[name]}:1000000" if name in ends else ""
+        stops = f" stops={ends[name]}" if name in ends else ""
         rows.append(f"axis {name} step=GP{pins.step_gpio} dir=GP{pins.dir_gpio}{stops}")
-    return rows + [switch.row() for switch in switches]
+    rows += [switch.row() for switch in switches]
+    return rows + [driver if isinstance(driver, str) else driver.row() for driver in drivers]
 
 
 @dataclass(frozen=True)
@@ -114,6 +130,7 @@ class Session:
     edges: Edges
     output: str
     """All of the screen."""
+    report: Report = field(default_factory=Report)
 
     @property
     def last(self) -> str:
@@ -175,18 +192,19 @@ def typed(
     *lines: str,
     events: list[Event] | tuple = (),
     switches: list[Switch] | tuple = (),
-    drivers: list[str] | tuple = (),
+    drivers: list[Driver | str] | tuple = (),
     code: int | None = 0,
 ) -> Session:
     """Type the lines one after the other; `events` happen at their times.
 
-    `drivers` are further lines of the machine: motor drivers on their wires.
+    `drivers` are motor drivers on their wires, or further lines of the machine as they are.
     """
-    trace, machine = folder / "edges.csv", folder / "machine.txt"
-    machine.write_text("".join(row + "\n" for row in [*machine_rows(switches), *drivers]))
+    trace, machine, report = folder / "edges.csv", folder / "machine.txt", folder / "report.jsonl"
+    machine.write_text("".join(row + "\n" for row in machine_rows(switches, drivers)))
     text = "".join(f'{line}\r?"<{i}>";TIMER\r' for i, line in enumerate(lines))
     inputs = write_events(folder / "events.csv", events)
-    output = _run(["--trace", trace, "--inputs", inputs, "--machine", machine], text, code)
+    world = ["--inputs", inputs, "--machine", machine, "--machine-report", report]
+    output = _run(["--trace", trace, *world], text, code)
     answers, times, shown = [], [], output
     for i, line in enumerate(lines):
         found = re.search(rf'^> \?"<{i}>";TIMER\n<{i}> ([\d.e+]+)\n', shown, re.MULTILINE)
@@ -194,7 +212,7 @@ def typed(
         before, shown = shown[: found.start()], shown[found.end() :]
         answers.append(before.partition(f"> {line}\n")[2].removesuffix("\n"))
         times.append(float(found[1]))
-    return Session(answers, times, Edges.read(trace), output)
+    return Session(answers, times, Edges.read(trace), output, Report.read(report))
 
 
 def write_events(file: Path, events: list[Event] | tuple) -> Path:
