@@ -9,6 +9,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// IOIN.VERSION of the chips.
+#define TMC22XX_VERSION_2208 0x20u
+#define TMC22XX_VERSION_2209 0x21u
+
 // Access to a register. A register that is neither READ nor CLEAR keeps what was written to itself.
 #define TMC22XX_READ 0x01u
 #define TMC22XX_WRITE 0x02u

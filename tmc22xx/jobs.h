@@ -1,0 +1,52 @@
+// The job under way: a chain of accesses to one driver, and what follows when one of them fails.
+// Context: main loop.
+#ifndef TMC22XX_JOBS_H
+#define TMC22XX_JOBS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tmc22xx/drivers.h"
+
+// ---- Beginning one; none may be under way ---------------------------------------------------------
+
+// Sets up the driver that `entry` describes completely. `driver`: its place in the table, or
+// DRIVERS_NONE. `opened`: the wire was opened for it, and closes again if it fails.
+void jobs_set_up(unsigned driver, const driver_t *entry, bool opened);
+
+// Makes the driver in the table what `entry` says; `kept`: the registers that differ, as bits.
+void jobs_change(unsigned driver, const driver_t *entry, uint32_t kept);
+
+// Writes a register that is not kept.
+void jobs_write(unsigned driver, uint8_t reg, uint32_t value);
+
+void jobs_read(unsigned driver, const uint8_t *registers, size_t count);
+void jobs_arm(uint32_t drivers, bool on);
+
+// Reads GSTAT and DRV_STATUS for monitor_note().
+void jobs_look_after(unsigned driver);
+
+// ---- Under way ----------------------------------------------------------------------------------
+
+bool jobs_busy(void);
+bool jobs_arm_busy(void);
+void jobs_step(void);
+
+// Ends a job of a statement as soon as it can.
+void jobs_give_up(void);
+
+// The wire closes. A job on it ends at once.
+void jobs_cut(unsigned wire);
+
+// ---- Results ------------------------------------------------------------------------------------
+
+err_t jobs_raise(void); // of the last job of a statement
+err_t jobs_raise_arm(void);
+uint32_t jobs_value(unsigned index);
+
+// Whether the jobs that begin from now on verify what they write.
+void jobs_verify(bool on);
+bool jobs_verifies(void);
+
+#endif

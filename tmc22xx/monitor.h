@@ -1,0 +1,20 @@
+// How the drivers are, as far as is known, and what of it the user is to be told. Context: main
+// loop.
+#ifndef TMC22XX_MONITOR_H
+#define TMC22XX_MONITOR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "tmc22xx/drivers.h"
+
+// A driver has answered; it has not; and what its registers said.
+void monitor_note_answer(driver_t *entry);
+void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor);
+void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status);
+
+// The driver that is to be looked at now; DRIVERS_NONE: none. To be asked while no job is under
+// way.
+unsigned monitor_due(void);
+
+#endif
