@@ -127,7 +127,7 @@ void drivers_settings(const driver_t *entry, tmc22xx_settings_t *settings) {
         .microsteps =
             (uint16_t)tmc22xx_microsteps(TMC22XX_TAKE(entry->kept[KEPT_CHOPCONF], CHOPCONF, MRES)),
         .r_sense_ohm = entry->r_sense_dmo / 10000.0,
-        .stealth = TMC22XX_TAKE(entry->kept[KEPT_GCONF], GCONF, en_spreadCycle) == 0,
+        .stealth = TMC22XX_TAKE(entry->kept[KEPT_GCONF], GCONF, en_SpreadCycle) == 0,
     };
 }
 

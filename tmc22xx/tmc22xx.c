@@ -199,7 +199,7 @@ err_t tmc22xx_set_stealth(unsigned driver, bool on, uint32_t tpwmthrs) {
     }
     uint32_t *gconf = &entry.kept[KEPT_GCONF];
     *gconf =
-        (*gconf & ~TMC22XX_MASK(GCONF, en_spreadCycle)) | TMC22XX_BITS(GCONF, en_spreadCycle, !on);
+        (*gconf & ~TMC22XX_MASK(GCONF, en_SpreadCycle)) | TMC22XX_BITS(GCONF, en_SpreadCycle, !on);
     entry.kept[KEPT_TPWMTHRS] = tpwmthrs;
     jobs_change(driver, &entry, 1u << KEPT_GCONF | 1u << KEPT_TPWMTHRS);
     return ERR_OK;
