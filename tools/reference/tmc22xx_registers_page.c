@@ -1,5 +1,5 @@
-// Prints docs/tmc22xx-registers.md from the table of registers. Built for the host; `make reference`
-// writes the page and a test compares it. Context: a program of its own.
+// Prints docs/tmc22xx-registers.md from the table of registers. Built for the host; `make
+// reference` writes the page and a test compares it. Context: a program of its own.
 #include <stdio.h>
 
 #include "base/base.h"
