@@ -33,7 +33,7 @@ void simulate_tmc_wire_watch(void (*watcher)(const simulate_tmc_access_t *access
 uint8_t simulate_tmc_wire_checksum(const uint8_t *bytes, unsigned size) {
     unsigned sum = 0;
     for (unsigned bit = 0; bit < size * 8; bit++) {
-        unsigned in = (bytes[bit / 8] >> (bit % 8) & 1u) ^ (sum >> 7 & 1u);
+        unsigned in = ((unsigned)bytes[bit / 8] >> (bit % 8) & 1u) ^ (sum >> 7 & 1u);
         sum = (sum << 1 & 0xFFu) ^ (in != 0 ? 0x07u : 0);
     }
     return (uint8_t)sum;
