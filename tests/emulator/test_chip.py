@@ -177,6 +177,35 @@ def test_pio_is_exact_to_the_cycle(check: Emulator, halves: int) -> None:
     assert np.abs(high - 3 * cycles).max() < 1
 
 
+def test_pio_shift_registers_fill_and_empty_themselves(check: Emulator) -> None:
+    """A register that is empty takes a word at once, not when it is needed (data sheet 3.5.4)."""
+    assert numbers(check.command("b")) == {
+        "autopull": [2, 1, 1, 0, 0, 0, 0],
+        "autopush": [0, 1, 1, 2, 2, 3, 3],
+    }
+
+
+def test_pio_answers_a_pin_from_outside(check: Emulator) -> None:
+    """It is pulled low one to two cycles after the other one falls, for four, then let go of."""
+    cycle_ns = 100 * CYCLE_NS
+    check.set_pin(INPUT, 1)
+    check.clear_edges()
+    check.send("d\r")
+    check.run_ms(1)
+    falls = [check.now_ns + 100_000 + 12_345 * n for n in range(10)]
+    for at in falls:
+        check.set_pin(INPUT, 0, at_ns=at)
+        check.set_pin(INPUT, 1, at_ns=at + 8_000)
+    check.until("\n> ")
+    edges = check.edges([HANDLER])
+    assert [level for _, _, level in edges] == [0, 1] * 10
+    lows, highs = [t for t, _, _ in edges[::2]], [t for t, _, _ in edges[1::2]]
+    assert all(high - low == 4 * cycle_ns for low, high in zip(lows, highs, strict=True))
+    late = [low - at for low, at in zip(lows, falls, strict=True)]
+    assert all(cycle_ns <= ns <= 2 * cycle_ns for ns in late)
+    assert max(late) - min(late) > cycle_ns / 2  # it waits for its own cycles
+
+
 def test_pins_pull_and_readback(check: Emulator) -> None:
     assert "input 1 output 1" in check.command("g")
     check.set_pin(INPUT, 0)

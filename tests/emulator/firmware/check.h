@@ -14,6 +14,8 @@ void check_float(
 void check_interrupts(
     int argument); // a software-pended user interrupt: pend, clear, enable, nesting below SysTick
 void check_pio(int divider_times_2); // square wave and FIFOs of the PIO
+void check_pio_shift(int argument);  // shift registers that fill and empty themselves
+void check_pio_answer(int argument); // a pin is pulled low when another one falls, for 2 ms
 void check_sleep(int argument);      // WFE, SEV, SEVONPEND, WFI with PRIMASK
 void check_stack(int argument);      // main on the process stack, exceptions on the main stack
 void check_storage(int argument);    // erase and program the flash by the boot ROM's functions

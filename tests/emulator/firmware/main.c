@@ -22,14 +22,15 @@ static const struct {
     char letter;
     void (*run)(int argument);
 } commands[] = {
-    {'a', check_alu},     {'e', echo},
-    {'f', check_float},   {'g', pins},
-    {'h', fault},         {'i', check_interrupts},
-    {'l', flood},         {'p', check_stack},
-    {'r', restart},       {'s', check_storage},
-    {'t', check_systick}, {'c', check_timing},
-    {'u', check_uart},    {'o', check_pio},
-    {'w', check_sleep},   {'x', check_systick_stop},
+    {'a', check_alu},       {'e', echo},
+    {'f', check_float},     {'g', pins},
+    {'h', fault},           {'i', check_interrupts},
+    {'l', flood},           {'p', check_stack},
+    {'r', restart},         {'s', check_storage},
+    {'t', check_systick},   {'c', check_timing},
+    {'u', check_uart},      {'o', check_pio},
+    {'w', check_sleep},     {'x', check_systick_stop},
+    {'b', check_pio_shift}, {'d', check_pio_answer},
 };
 
 // Repeats lines of input until an empty one.

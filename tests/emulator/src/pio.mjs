@@ -5,6 +5,9 @@ import { FIFO } from 'rp2040js';
 
 const SM_FIRST = 0x0c8, SM_LAST = 0x128, SM_SIZE = 0x18;
 const CLKDIV = 0, SHIFTCTRL = 8;
+const AUTOPULL = 1 << 17;
+const OUT = 0b011; // in the upper three bits of an instruction
+const WAITS_FOR_WORD = 5; // WaitType.Out of rp2040js
 const TX_DEPTH = [4, 8, 0, 0], RX_DEPTH = [4, 0, 8, 0]; // by FJOIN_TX, FJOIN_RX
 
 class Machine {
@@ -19,6 +22,11 @@ class Machine {
         this.alarm = clock.createAlarm(() => this.step());
         this.checkWait = machine.checkWait.bind(machine);
         machine.checkWait = () => this.resume();
+        this.writeFIFO = machine.writeFIFO.bind(machine);
+        machine.writeFIFO = (value) => {
+            this.writeFIFO(value);
+            if (machine.enabled) this.refill();
+        };
         machine.clkDivRestart = () => this.cancel();
     }
 
@@ -34,12 +42,29 @@ class Machine {
         this.scheduled = false;
     }
 
+    // With autopull an empty shift register takes the next word at once, not when it is needed. True: it did.
+    refill() {
+        const { machine } = this;
+        if (!(machine.shiftCtrl & AUTOPULL) || machine.outputShiftCount < machine.pullThreshold || machine.txFIFO.empty
+            || (machine.waiting && machine.waitType === WAITS_FOR_WORD)) return false;
+        machine.outputShiftReg = machine.txFIFO.pull();
+        machine.outputShiftCount = 0;
+        machine.updateDMATx();
+        machine.pio.checkInterrupts();
+        return true;
+    }
+
     step() {
         const { machine, pio } = this, before = machine.cycles;
         this.scheduled = false;
+        if (this.refill() && pio.instructions[machine.pc] >>> 13 === OUT) {
+            this.at(this.due + this.divider); // it executes a cycle later
+            return;
+        }
         this.stepping = true;
         machine.step();
         this.stepping = false;
+        this.refill();
         pio.checkChangedPins();
         if (machine.enabled && !machine.waiting) this.at(this.due + (machine.cycles - before) * this.divider);
     }
