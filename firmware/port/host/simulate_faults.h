@@ -1,4 +1,5 @@
-// Faults of a simulated driver chip, by name: what goes wrong, from when on, how often. Context: any.
+// Faults of a simulated driver chip, by name: what goes wrong, from when on, how often. Context:
+// any.
 #ifndef SIMULATE_FAULTS_H
 #define SIMULATE_FAULTS_H
 

@@ -1,4 +1,5 @@
-// A stepper motor between its driver and the carriage. Context: any (called where the edge is made).
+// A stepper motor between its driver and the carriage. Context: any (called where the edge is
+// made).
 //
 // Places are in 1/256 of a full step. The field has a place of rest for the rotor every four full
 // steps; `pole` is the one that the rotor is held by. Pulled from it, a rotor resists with

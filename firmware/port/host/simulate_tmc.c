@@ -195,6 +195,7 @@ void simulate_tmc_update(simulate_tmc_t *tmc, uint64_t now_ns) {
         host_pads_drive(tmc->diag_gpio, diag);
     }
     tmc->diag = diag;
+    tmc->calm_ns = simulate_tmc_state_calm_ns(tmc, now_ns);
 }
 
 // ---- All of them --------------------------------------------------------------------------------
@@ -233,6 +234,7 @@ bool simulate_tmc_attach(simulate_tmc_t *tmc) {
         host_pads_drive(tmc->diag_gpio, false);
     }
     simulate_tmc_reset(tmc, host_clock_now_ns());
+    simulate_tmc_update(tmc, host_clock_now_ns());
     return true;
 }
 
@@ -244,7 +246,7 @@ uint64_t simulate_tmc_next_ns(void) {
     uint64_t next_ns = UINT64_MAX;
     for (unsigned i = 0; i < drivers.count; i++) {
         uint64_t fault_ns = simulate_faults_next_ns(&drivers.list[i]->faults);
-        uint64_t calm_ns = simulate_tmc_state_calm_ns(drivers.list[i]);
+        uint64_t calm_ns = drivers.list[i]->calm_ns;
         uint64_t mine_ns = fault_ns < calm_ns ? fault_ns : calm_ns;
         next_ns = mine_ns < next_ns ? mine_ns : next_ns;
     }

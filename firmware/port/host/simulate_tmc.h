@@ -52,6 +52,7 @@ typedef struct {
     uint64_t reset_ns;
     bool too_hot; // switched off until it is cool again
     bool diag;
+    uint64_t calm_ns;                   // DIAG is to be looked at then
     uint32_t writes, reads, bad_frames; // taken from the wire, and not
 
     uint64_t pulse_ns[SIMULATE_TMC_INTERVALS + 1]; // the last pulses, a ring
@@ -66,7 +67,8 @@ typedef struct {
 // A TMC2209 at address 0 with nothing connected, a sense resistor of 0.11 ohm and 12 MHz.
 void simulate_tmc_init(simulate_tmc_t *tmc);
 
-// Powers it up, and moves the axis from now on, which has to be attached. False if there is no room.
+// Powers it up, and moves the axis from now on, which has to be attached. False if there is no
+// room.
 bool simulate_tmc_attach(simulate_tmc_t *tmc);
 
 // The drivers that are attached, in order; NULL behind the last.

@@ -72,8 +72,8 @@ bool simulate_tmc_state_stalled(const simulate_tmc_t *tmc, uint64_t now_ns) {
     return is_load_measured(tmc, now_ns) && tmc->sg_result <= 2 * tmc->registers[TMC_SGTHRS];
 }
 
-uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc) {
-    if (!tmc->diag || tmc->pulses < 2) {
+uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc, uint64_t now_ns) {
+    if (tmc->pulses < 2 || !simulate_tmc_state_stalled(tmc, now_ns)) {
         return HOST_CLOCK_NEVER;
     }
     uint64_t clocks = (uint64_t)(tmc->registers[TMC_TCOOLTHRS] + 1) * 256;
@@ -81,7 +81,7 @@ uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc) {
         pulse_back_ns(tmc, 0) + clocks_ns(tmc, clocks) / simulate_tmc_microsteps(tmc) + 1000;
     uint64_t still_ns = pulse_back_ns(tmc, 0) + clocks_ns(tmc, STANDSTILL_CLOCKS) + 1000;
     calm_ns = calm_ns < still_ns ? calm_ns : still_ns;
-    return calm_ns > host_clock_now_ns() ? calm_ns : HOST_CLOCK_NEVER;
+    return calm_ns > now_ns ? calm_ns : HOST_CLOCK_NEVER;
 }
 
 // ---- Current ------------------------------------------------------------------------------------

@@ -59,7 +59,7 @@ bool simulate_tmc_state_stalled(const simulate_tmc_t *tmc, uint64_t now_ns);
 
 // When a stall that is shown ends without another pulse, because the speed is too low by then;
 // UINT64_MAX: nothing is shown.
-uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc);
+uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc, uint64_t now_ns);
 
 // The motor gets no current: switched off, too hot, shorted.
 bool simulate_tmc_state_off(const simulate_tmc_t *tmc, uint64_t now_ns);
