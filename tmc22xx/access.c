@@ -31,6 +31,7 @@ static struct {
     uint8_t failures; // in this stage
     bool probing;     // another register is on the wire
     uint8_t writes;   // sent in this access
+    bool in_doubt;    // the last of them may have been taken
     bool counted;     // `count` is known
     uint8_t count;    // IFCNT
     uint8_t found;    // IFCNT behind the write
@@ -117,6 +118,7 @@ static access_state_t read_on(exchange_state_t state) {
 static void send(void) {
     access.stage = STAGE_SEND;
     access.writes++;
+    access.in_doubt = true;
     exchange_write(wires_get(access.wire), access.address, access.reg, access.value);
 }
 
@@ -142,6 +144,7 @@ static access_state_t succeed(void) {
 static access_state_t judge_count(uint32_t value) {
     access.found = (uint8_t)value;
     if (access.found == access.count) {
+        access.in_doubt = false;
         return send_again();
     }
     if (is_counted() && (access.found != 0 || !access.knows_resets)) {
@@ -210,6 +213,7 @@ static void begin(uint8_t reg, uint32_t value) {
     access.value = value;
     access.fault = ACCESS_OK;
     access.writes = 0;
+    access.in_doubt = false;
     access.cancelled = false;
 }
 
@@ -288,8 +292,8 @@ access_fault_t access_fault(void) {
     return access.fault;
 }
 
-bool access_was_sent(void) {
-    return access.writes > 0;
+bool access_is_in_doubt(void) {
+    return access.in_doubt;
 }
 
 unsigned access_take_repeats(void) {

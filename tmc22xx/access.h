@@ -43,8 +43,8 @@ access_state_t access_poll(void);
 uint32_t access_value(void);
 access_fault_t access_fault(void);
 
-// The write, done or failed, was on the wire at least once.
-bool access_was_sent(void);
+// The write failed, but the driver may have taken it.
+bool access_is_in_doubt(void);
 
 // How many requests and writes were sent again since it was asked last.
 unsigned access_take_repeats(void);

@@ -186,7 +186,7 @@ static void fail_access(void) {
     default:
         break;
     }
-    if (job.phase == PHASE_WRITE && access_was_sent()) {
+    if (job.phase == PHASE_WRITE && access_is_in_doubt()) {
         job.touched |= (uint16_t)(1u << job.writing);
     }
     fail((uint8_t)access_fault());
