@@ -274,6 +274,25 @@ static int find_command(int row, const char **behind) {
     return found;
 }
 
+// A word that stands where the arguments of a row of one word begin, but as no argument can: nothing
+// behind it, or something other than an operator. It was meant as a word of a longer name.
+static bool is_unknown_word(const basic_command_t *command, int chain) {
+    const lexer_token_t word = *lexer_now();
+    bool one_word = strchr(command->name, ' ') == NULL;
+    bool has_longer = one_word && words_next(WORDS_COMMAND, chain) != WORDS_NONE;
+    if (!has_longer || word.kind != LEXER_NAME || word.suffix != 0 || args_is_pin_name(&word)) {
+        return false;
+    }
+    lexer_next();
+    const lexer_token_t *next = lexer_now();
+    bool needs_more = command->arg_count > 1 &&
+                      !(command->args[1].flags & (BASIC_ARG_OPTIONAL | BASIC_ARG_REPEAT));
+    bool unknown = next->kind == LEXER_NAME || next->kind == LEXER_NUMBER ||
+                   next->kind == LEXER_STRING || (lexer_at_end() && needs_more);
+    lexer_go(word.text);
+    return unknown;
+}
+
 bool args_fits_command(int row) {
     const char *start = lexer_now()->text;
     const char *behind;
@@ -292,6 +311,9 @@ void args_compile_command(int row) {
     found = args_select_row(found, behind);
     const basic_command_t *command = rows_command((unsigned)found);
     lexer_go(behind);
+    if (is_unknown_word(command, row)) {
+        errors_fail_with(ERR_UNKNOWN_SUBCOMMAND, "%s", command->name);
+    }
     unsigned count = compile_list(command->args, command->arg_count, false);
     emit_op(OP_COMMAND);
     rows_emit(ROWS_COMMANDS, (unsigned)found);

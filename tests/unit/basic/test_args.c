@@ -62,6 +62,10 @@ static const basic_arg_spec_t register_args[] = {
      .min = 0,
      .max = 127},
 };
+static const basic_arg_spec_t wire_args[] = {
+    {.name = "pin", .kind = BASIC_ARG_PIN},
+    {.name = "speed", .kind = BASIC_ARG_INTEGER},
+};
 static const basic_arg_spec_t free_args[] = {{.name = "any", .kind = BASIC_ARG_INTEGER}};
 
 static const basic_command_t commands[] = {
@@ -75,6 +79,8 @@ static const basic_command_t commands[] = {
     {"DRIVE CHIP", chip_args, 1, remember, NULL},
     {"DRIVE WAY", way_args, 2, remember, NULL},
     {"DRIVE READ", register_args, 1, remember, NULL},
+    {"WIRE", wire_args, 2, remember, NULL},
+    {"WIRE CLOSE", NULL, 0, remember, NULL},
 };
 
 static err_t position(const basic_arg_t *args, size_t count, basic_value_t *result) {
@@ -309,6 +315,21 @@ static void test_names(void) {
     accept("MOTOR 1");
 }
 
+// A word that cannot be the first argument was meant as a part of the name.
+static void test_unknown_words(void) {
+    reject("WIRE CLOES", "Unknown WIRE subcommand");
+    reject("WIRE SPEED 5", "Unknown WIRE subcommand");
+    reject("WIRE SPEED GP3,5", "Unknown WIRE subcommand");
+    reject("WIRE GP3", "Missing speed");
+    reject("WIRE", "Missing pin");
+    TEST_ASSERT_EQUAL_STRING("", board_answer("p=4"));
+    accept("WIRE p,5");
+    TEST_ASSERT_EQUAL_INT64(4, got[0].integer);
+    accept("WIRE p+1,5");
+    TEST_ASSERT_EQUAL_INT64(5, got[0].integer);
+    accept("wire close");
+}
+
 static void test_functions(void) {
     TEST_ASSERT_EQUAL_STRING(" 1.5\r\n", board_answer("PRINT PEEK(DRIVE Y)"));
     TEST_ASSERT_EQUAL_STRING("-1\r\n", board_answer("PRINT PEEK(ACTIVE)"));
@@ -343,6 +364,7 @@ int main(void) {
     RUN_TEST(test_raw);
     RUN_TEST(test_groups);
     RUN_TEST(test_names);
+    RUN_TEST(test_unknown_words);
     RUN_TEST(test_functions);
     RUN_TEST(test_help);
     return UNITY_END();
