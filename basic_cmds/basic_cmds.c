@@ -11,6 +11,7 @@
 #include "basic_cmds/safety.h"
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
+#include "basic_cmds/tmc.h"
 #include "gcode/gcode_job.h"
 #include "stepper/stepper_safety.h"
 
@@ -18,8 +19,15 @@
 #define CTRL_R 18
 
 const basic_rows_t *const basic_cmds_tables[] = {
-    &stepper_config_rows, &stepper_control_rows, &stepper_gcode_rows, &stepper_homing_rows,
-    &stepper_report_rows, &stepper_safety_rows,  &pin_rows,           &bus_rows,
+    &stepper_config_rows,
+    &stepper_control_rows,
+    &stepper_gcode_rows,
+    &stepper_homing_rows,
+    &stepper_report_rows,
+    &stepper_safety_rows,
+    &tmc_rows,
+    &pin_rows,
+    &bus_rows,
 };
 const size_t basic_cmds_table_count = COUNT_OF_ARRAY(basic_cmds_tables);
 
@@ -41,6 +49,7 @@ void basic_cmds_new(void) {
     if (stepper_active() >= 0) {
         stepper_close();
     }
+    tmc_new();
 }
 
 void basic_cmds_background(void) {
@@ -51,6 +60,7 @@ void basic_cmds_background(void) {
     safety_background();
     job_background();
     machine_outputs_background();
+    tmc_background();
 }
 
 void basic_cmds_break(void) {

@@ -52,11 +52,10 @@ static err_t find_axis(unsigned axis, unsigned tx_gpio, unsigned *driver) {
 }
 
 err_t tmc_find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {
-    bool is_axis = driver->text.length > 0;
-    unsigned number = (unsigned)driver->integer;
+    unsigned choice = (unsigned)driver->integer;
     unsigned tx_gpio = (unsigned)wire->integer;
-    return is_axis ? find_axis(number, tx_gpio, found)
-                   : tmc22xx_find(number, (uint8_t)tx_gpio, found);
+    return choice >= TMC_FIRST_AXIS ? find_axis(choice - TMC_FIRST_AXIS, tx_gpio, found)
+                                    : tmc22xx_find(choice, (uint8_t)tx_gpio, found);
 }
 
 err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {

@@ -6,7 +6,10 @@
 #include "basic/basic.h"
 #include "tmc22xx/tmc22xx.h"
 
+// A driver by its address or by its axis, and the first of these among the choices.
 #define TMC_AXES "X|Y|Z|A"
+#define TMC_DRIVERS "0|1|2|3|" TMC_AXES
+#define TMC_FIRST_AXIS 4
 #define TMC_BAUD_MIN 9600
 #define TMC_BAUD_MAX 500000
 

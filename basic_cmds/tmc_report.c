@@ -15,8 +15,10 @@ static err_t find_register(const basic_arg_t *arg, const char *name, unsigned dr
                                             : tmc22xx_register_at((unsigned)arg->integer);
     unsigned chip = tmc22xx_driver(driver)->chip;
     if (reg == NULL && is_word) {
-        return err_raise(ERR_ARGUMENT, "%s: %.*s is no register (valid is a name as DRV_STATUS, or "
-                         "an address)", name, (int)text->length, text->text);
+        return err_raise(ERR_ARGUMENT,
+                         "%s: %.*s is no register (valid is a name as DRV_STATUS, or "
+                         "an address)",
+                         name, (int)text->length, text->text);
     }
     if (reg == NULL) {
         return err_raise(ERR_ARGUMENT, "%s: there is none at address %d", name, (int)arg->integer);
@@ -32,8 +34,7 @@ static err_t find_register(const basic_arg_t *arg, const char *name, unsigned dr
 static err_t fetch(unsigned driver, const tmc22xx_register_t *reg, uint32_t *value) {
     if ((reg->access & TMC22XX_READ) == 0) {
         bool known = tmc22xx_written(driver, reg->address, value);
-        return known ? ERR_OK
-                     : err_raise(ERR_ARGUMENT, "register: %s cannot be read", reg->name);
+        return known ? ERR_OK : err_raise(ERR_ARGUMENT, "register: %s cannot be read", reg->name);
     }
     err_t err = tmc_finish(tmc22xx_begin_read(driver, &reg->address, 1));
     if (err == ERR_OK) {
@@ -43,18 +44,19 @@ static err_t fetch(unsigned driver, const tmc22xx_register_t *reg, uint32_t *val
 }
 
 static void print_field(const tmc22xx_field_t *field, uint32_t value) {
-    char number[16];
+    char number[48];
+    size_t length;
     if (field->is_signed) {
-        format_text(number, sizeof number, "%ld", (long)tmc22xx_field_signed(value, field));
+        length =
+            format_text(number, sizeof number, "%ld", (long)tmc22xx_field_signed(value, field));
     } else {
-        format_text(number, sizeof number, "%lu", (unsigned long)tmc22xx_field(value, field));
+        length =
+            format_text(number, sizeof number, "%lu", (unsigned long)tmc22xx_field(value, field));
     }
-    basic_printf("  %-18s %s", field->name, number);
     if (field->unit != NULL) {
-        basic_printf(" %s", field->unit);
+        format_text(number + length, sizeof number - length, " %s", field->unit);
     }
-    basic_printf("%s%s\n", field->help != NULL ? ": " : "",
-                 field->help != NULL ? field->help : "");
+    basic_printf("  %-18s %-10s %s\n", field->name, number, field->help);
 }
 
 static void print_register(const tmc22xx_register_t *reg, uint32_t value, unsigned chip_bit) {
@@ -140,8 +142,10 @@ static const struct {
     uint8_t reg;
     uint32_t (*take)(uint32_t value);
 } shorts[] = {
-    {"SG", TMC22XX_REG_SG_RESULT, whole},          {"CS", TMC22XX_REG_DRV_STATUS, current_scale},
-    {"TEMP", TMC22XX_REG_DRV_STATUS, temperature}, {"STATUS", TMC22XX_REG_DRV_STATUS, whole},
+    {"SG", TMC22XX_REG_SG_RESULT, whole},
+    {"CS", TMC22XX_REG_DRV_STATUS, current_scale},
+    {"TEMP", TMC22XX_REG_DRV_STATUS, temperature},
+    {"STATUS", TMC22XX_REG_DRV_STATUS, whole},
 };
 
 static bool is_word(const basic_text_t *text, const char *word) {

@@ -7,8 +7,8 @@
 #include "basic_cmds/tmc_tune.h"
 
 #define DRIVER_ARG                                                                                 \
-    {"driver", BASIC_ARG_INTEGER,   .min = 0,                                                      \
-     .max = 3, .choices = TMC_AXES, .help = "its address, or the axis it is tied to"}
+    {"driver", BASIC_ARG_CHOICE, .choices = TMC_DRIVERS,                                           \
+     .help = "its address, or the axis it is tied to"}
 #define WIRE_ARG                                                                                   \
     {"tx_pin", BASIC_ARG_PIN, OPTIONAL,                                                            \
      .help = "its wire, needed where two wires have a driver with this address"}
@@ -119,7 +119,7 @@ static const basic_arg_spec_t write_args[] = {
 };
 
 static const basic_arg_spec_t status_args[] = {
-    {"driver", BASIC_ARG_INTEGER, OPTIONAL, .min = 0, .max = 3, .choices = TMC_AXES,
+    {"driver", BASIC_ARG_CHOICE, OPTIONAL, .choices = TMC_DRIVERS,
      .help = "its address, or the axis it is tied to; left out: all"},
     WIRE_ARG,
 };

@@ -134,8 +134,8 @@ static err_t print_all(void) {
         }
     }
     basic_printf("%sverification is %s, monitor is %s\n",
-                 count == 0 ? "TMC22xx not initialized; " : "",
-                 report_on_off(tmc22xx_verifies()), report_on_off(tmc22xx_monitors()));
+                 count == 0 ? "TMC22xx not initialized; " : "", report_on_off(tmc22xx_verifies()),
+                 report_on_off(tmc22xx_monitors()));
     return ERR_OK;
 }
 
