@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).parent
-SECTIONS = ["2.1", "2.2", "2.3", "2.4", "3.1", "3.2", "4", "5", "6", "8"]
+SECTIONS = ["2.1", "2.2", "2.3", "2.4", "3.1", "3.2", "4", "5", "6", "7", "8"]
 
 
 def statements() -> list[dict]:

@@ -228,12 +228,15 @@ def program(
     *,
     keys: str = "",
     events: list[Event] | tuple = (),
+    drivers: list[Driver | str] | tuple = (),
     code: int | None = 0,
 ) -> Session:
     """Run a BASIC program from a file; its whole output is the one answer."""
-    source, trace = folder / "program.bas", folder / "edges.csv"
+    source, trace, machine = (folder / name for name in ("program.bas", "edges.csv", "machine.txt"))
     source.write_text(text)
+    machine.write_text("".join(row + "\n" for row in machine_rows((), drivers)))
     inputs = write_events(folder / "events.csv", events)
-    output = _run(["--trace", trace, "--inputs", inputs, source], keys, code)
+    world = ["--inputs", inputs, "--machine", machine]
+    output = _run(["--trace", trace, *world, source], keys, code)
     _, _, printed = output.partition("\n\n")  # behind the banner
     return Session([printed.rstrip("\n")], [0.0], Edges.read(trace), output)
