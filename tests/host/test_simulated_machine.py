@@ -1,5 +1,6 @@
 """The simulated machine of the host port: what its file says happens, mistakes are told."""
 
+import json
 import subprocess
 from pathlib import Path
 
@@ -57,12 +58,38 @@ def test_an_inverted_axis_with_a_switch_that_is_high(tmp_path):
         ("axis X step=2 dir=3\nswitch axis=X", "machine.txt:2: a switch needs pin= and axis="),
         ("axis X step=2 dir=3\nswitch pin=4 axis=X bounce_us=-1", "out of range"),
         ("axis X step=2 dir=3\nstall pin=4 axis=X often", "unknown in the line of a switch"),
+        ("tmc2209 address=0", "machine.txt:1: a driver needs tx="),
+        ("tmc2209 tx=5 address=4", "address of a tmc2209: 0 to 3"),
+        ("tmc2208 tx=5 address=1", "of a tmc2208: 0"),
+        ("tmc2209 tx=5 axis=X", "no axis before this line is called 'X'"),
+        ("axis X step=2 dir=3\ntmc2209 tx=5 axis=X\ntmc2209 tx=5 axis=X", "has a driver already"),
+        ("tmc2209 tx=5 microsteps=12", "microsteps: 1, 2, 4"),
+        ("tmc2209 tx=5 fault=lame", "no such fault: 'fault=lame'"),
+        ("tmc2209 tx=5 fault=stall", "a stall has a place"),
+        ("tmc2209 tx=5 fault=late:-1", "out of range: 'fault=late:-1'"),
+        ("tmc2209 tx=5 fault=late@5-x", "no whole number in 'fault=late@5-x'"),
+        ("tmc2209 tx=5 slow", "unknown in the line of a driver: 'slow'"),
+        ("tmc2209 tx=5\n" * 9, "machine.txt:9: too many drivers"),
     ],
 )
 def test_mistakes_are_told_with_their_line(tmp_path, machine, said):
     done = run(tmp_path, machine)
     assert done.returncode == 2
     assert said in done.stderr
+
+
+def test_a_report_has_drivers_and_axes(tmp_path):
+    (tmp_path / "machine.txt").write_text(
+        "axis X step=GP2 dir=GP3 at=5\ntmc2209 tx=5 address=1 axis=X fault=brown-out:0@1-2\n"
+    )
+    report = tmp_path / "report.jsonl"
+    arguments = ["--virtual", "--machine", tmp_path / "machine.txt", "--machine-report", report]
+    subprocess.run([HOST_PROGRAM, *arguments], input=b"", check=True, capture_output=True)
+    rows = [json.loads(line) for line in report.read_text().splitlines()]
+    assert len(rows) == 1
+    assert rows[0]["axes"] == [{"name": "X", "position": 5, "pulses": 0}]
+    assert rows[0]["drivers"][0]["microsteps"] == 32
+    assert rows[0]["drivers"][0]["registers"]["CHOPCONF"] == 0x10000053
 
 
 def test_a_missing_file_is_told(tmp_path):

@@ -17,15 +17,15 @@ static struct {
     unsigned count;
 } drivers;
 
-static uint64_t read_ms_ns(const char *word, const char *text) {
-    long long ms = host_machine_number(word, text, '\0', &text);
-    if (ms < 0) {
-        host_machine_complain("before the start:", word);
+static uint64_t read_ms_ns(const char *word, const char *text, char end_char, const char **end) {
+    long long ms = host_machine_number(word, text, end_char, end);
+    if (ms < 0 || ms > INT32_MAX) {
+        host_machine_complain("no such time:", word);
     }
     return (uint64_t)ms * 1000000u;
 }
 
-// NAME, NAME:NUMBER, NAME@MS, NAME:NUMBER@MS.
+// NAME, then :NUMBER or nothing, then @FROM, @FROM-TO (ms) or nothing.
 static void read_fault(simulate_faults_t *faults, const char *word, const char *text) {
     simulate_chip_fault_t fault = simulate_faults_by_name(text, strcspn(text, ":@"));
     const char *number = text + strcspn(text, ":@");
@@ -36,7 +36,15 @@ static void read_fault(simulate_faults_t *faults, const char *word, const char *
     if (fault == SIMULATE_CHIP_STALL && *number != ':') {
         host_machine_complain("a stall has a place, as fault=stall:-400, not", word);
     }
-    simulate_faults_set(faults, fault, at != NULL ? read_ms_ns(word, at + 1) : 0);
+    uint64_t from_ns = 0;
+    uint64_t until_ns = UINT64_MAX;
+    if (at != NULL) {
+        bool ends = strchr(at, '-') != NULL;
+        const char *behind;
+        from_ns = read_ms_ns(word, at + 1, ends ? '-' : '\0', &behind);
+        until_ns = ends ? read_ms_ns(word, behind, '\0', &behind) : until_ns;
+    }
+    simulate_faults_set(faults, fault, from_ns, until_ns);
     if (*number == ':') {
         const char *end;
         long long value = host_machine_number(word, number + 1, at != NULL ? '@' : '\0', &end);

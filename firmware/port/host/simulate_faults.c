@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define HOT_C 165 // beyond the highest threshold
+#define HOT_C 120 // where a chip warns
 
 static const char *const fault_names[SIMULATE_CHIP_FAULTS] = {
     [SIMULATE_CHIP_SILENT] = "silent",
@@ -12,7 +12,7 @@ static const char *const fault_names[SIMULATE_CHIP_FAULTS] = {
     [SIMULATE_CHIP_BAD_CRC] = "bad-crc",
     [SIMULATE_CHIP_LATE] = "late",
     [SIMULATE_CHIP_GARBLED] = "garbled",
-    [SIMULATE_CHIP_HELD_LOW] = "held-low",
+    [SIMULATE_CHIP_UNPOWERED] = "unpowered",
     [SIMULATE_CHIP_BROWN_OUT] = "brown-out",
     [SIMULATE_CHIP_OVER_TEMPERATURE] = "over-temperature",
     [SIMULATE_CHIP_SHORT] = "short",
@@ -37,10 +37,12 @@ bool simulate_faults_of_wire(simulate_chip_fault_t fault) {
     return fault <= SIMULATE_CHIP_GARBLED;
 }
 
-void simulate_faults_set(simulate_faults_t *faults, simulate_chip_fault_t fault, uint64_t from_ns) {
+void simulate_faults_set(simulate_faults_t *faults, simulate_chip_fault_t fault, uint64_t from_ns,
+                         uint64_t until_ns) {
     memset(&faults->list[fault], 0, sizeof faults->list[fault]);
     faults->list[fault].set = true;
     faults->list[fault].from_ns = from_ns;
+    faults->list[fault].until_ns = until_ns;
     faults->list[fault].frames = SIMULATE_CHIP_FOR_EVER;
     faults->list[fault].value = HOT_C;
 }
@@ -60,7 +62,7 @@ void simulate_faults_clear(simulate_faults_t *faults, simulate_chip_fault_t faul
 bool simulate_faults_active(const simulate_faults_t *faults, simulate_chip_fault_t fault,
                             uint64_t now_ns) {
     return faults->list[fault].set && now_ns >= faults->list[fault].from_ns &&
-           faults->list[fault].frames > 0;
+           now_ns < faults->list[fault].until_ns && faults->list[fault].frames > 0;
 }
 
 bool simulate_faults_strikes(simulate_faults_t *faults, simulate_chip_fault_t fault,
@@ -74,22 +76,29 @@ bool simulate_faults_strikes(simulate_faults_t *faults, simulate_chip_fault_t fa
     return true;
 }
 
-bool simulate_faults_begins(simulate_faults_t *faults, simulate_chip_fault_t fault,
-                            uint64_t now_ns) {
+simulate_faults_change_t simulate_faults_change(simulate_faults_t *faults,
+                                                simulate_chip_fault_t fault, uint64_t now_ns) {
     bool active = simulate_faults_active(faults, fault, now_ns);
-    bool begins = active && !faults->list[fault].begun;
+    bool was_active = faults->list[fault].begun;
     faults->list[fault].begun = active;
-    return begins;
+    if (faults->list[fault].set && now_ns >= faults->list[fault].until_ns) {
+        faults->list[fault].set = false;
+    }
+    if (active == was_active) {
+        return SIMULATE_FAULTS_STAYS;
+    }
+    return active ? SIMULATE_FAULTS_BEGINS : SIMULATE_FAULTS_ENDS;
 }
 
 uint64_t simulate_faults_next_ns(const simulate_faults_t *faults) {
     uint64_t next_ns = UINT64_MAX;
     for (unsigned i = 0; i < SIMULATE_CHIP_FAULTS; i++) {
-        bool waits = faults->list[i].set && !faults->list[i].begun &&
-                     !simulate_faults_of_wire((simulate_chip_fault_t)i);
-        if (waits && faults->list[i].from_ns < next_ns) {
-            next_ns = faults->list[i].from_ns;
+        if (!faults->list[i].set || simulate_faults_of_wire((simulate_chip_fault_t)i)) {
+            continue;
         }
+        uint64_t change_ns =
+            faults->list[i].begun ? faults->list[i].until_ns : faults->list[i].from_ns;
+        next_ns = change_ns < next_ns ? change_ns : next_ns;
     }
     return next_ns;
 }

@@ -16,9 +16,9 @@ typedef enum {
     SIMULATE_CHIP_LATE,      // "late": the reply comes 2 to 10 ms after it should
     SIMULATE_CHIP_GARBLED,   // "garbled": one bit of each frame turns over, in either direction
     // Of the chip, with a value:
-    SIMULATE_CHIP_HELD_LOW,         // "held-low": without supply, it pulls the wire low
+    SIMULATE_CHIP_UNPOWERED,        // "unpowered": without supply, it pulls the wire low
     SIMULATE_CHIP_BROWN_OUT,        // "brown-out": once, all registers as after power-up
-    SIMULATE_CHIP_OVER_TEMPERATURE, // "over-temperature": degrees Celsius, else 165
+    SIMULATE_CHIP_OVER_TEMPERATURE, // "over-temperature": degrees Celsius, else 120
     SIMULATE_CHIP_SHORT,            // "short": of a coil to ground; the driver switches off
     SIMULATE_CHIP_OPEN_LOAD,        // "open-load": a coil is not connected
     SIMULATE_CHIP_STALL,            // "stall": the axis is blocked at this place of it
@@ -30,8 +30,8 @@ typedef enum {
 typedef struct {
     struct {
         bool set;
-        bool begun; // has been noticed by simulate_faults_begins()
-        uint64_t from_ns;
+        bool begun; // as simulate_faults_change() saw it last
+        uint64_t from_ns, until_ns;
         uint32_t frames; // left; SIMULATE_CHIP_FOR_EVER
         int32_t value;
     } list[SIMULATE_CHIP_FAULTS];
@@ -45,8 +45,10 @@ simulate_chip_fault_t simulate_faults_by_name(const char *name, size_t length);
 // It is one of the wire, with a number of frames; else it has a value.
 bool simulate_faults_of_wire(simulate_chip_fault_t fault);
 
-// Begins it at a time, for good. Replaces what was set for this fault.
-void simulate_faults_set(simulate_faults_t *faults, simulate_chip_fault_t fault, uint64_t from_ns);
+// Begins it at a time and ends it at another, UINT64_MAX: never. Replaces what was set for this
+// fault.
+void simulate_faults_set(simulate_faults_t *faults, simulate_chip_fault_t fault, uint64_t from_ns,
+                         uint64_t until_ns);
 
 // Number of frames, or value.
 void simulate_faults_limit(simulate_faults_t *faults, simulate_chip_fault_t fault, int32_t number);
@@ -61,11 +63,17 @@ bool simulate_faults_active(const simulate_faults_t *faults, simulate_chip_fault
 bool simulate_faults_strikes(simulate_faults_t *faults, simulate_chip_fault_t fault,
                              uint64_t now_ns);
 
-// True once: it is there and was not the last time.
-bool simulate_faults_begins(simulate_faults_t *faults, simulate_chip_fault_t fault,
-                            uint64_t now_ns);
+typedef enum {
+    SIMULATE_FAULTS_STAYS,
+    SIMULATE_FAULTS_BEGINS,
+    SIMULATE_FAULTS_ENDS
+} simulate_faults_change_t;
 
-// When the next one begins that is none of the wire, UINT64_MAX: none.
+// What has become of it since the last call.
+simulate_faults_change_t simulate_faults_change(simulate_faults_t *faults,
+                                                simulate_chip_fault_t fault, uint64_t now_ns);
+
+// When the next one begins or ends that is none of the wire, UINT64_MAX: never.
 uint64_t simulate_faults_next_ns(const simulate_faults_t *faults);
 
 #endif

@@ -166,21 +166,38 @@ static void block(simulate_tmc_t *tmc, int64_t place) {
     }
 }
 
-static void begin_faults(simulate_tmc_t *tmc, uint64_t now_ns) {
+// The ends of the axis, without an obstacle.
+static void unblock(simulate_tmc_t *tmc) {
+    bool has_stops = tmc->axis != NULL && tmc->axis->has_stops;
+    tmc->motor.stop_low = -SIMULATE_MOTOR_NO_END;
+    tmc->motor.stop_high = SIMULATE_MOTOR_NO_END;
+    if (has_stops) {
+        tmc->motor.stop_low = to_motor(tmc, tmc->axis->stop_low_steps);
+        tmc->motor.stop_high = to_motor(tmc, tmc->axis->stop_high_steps);
+    }
+}
+
+// Takes notice of faults that have come or gone.
+static void look_at_faults(simulate_tmc_t *tmc, uint64_t now_ns) {
     for (unsigned i = 0; i < SIMULATE_CHIP_FAULTS; i++) {
-        if (!simulate_faults_begins(&tmc->faults, (simulate_chip_fault_t)i, now_ns)) {
+        simulate_faults_change_t change =
+            simulate_faults_change(&tmc->faults, (simulate_chip_fault_t)i, now_ns);
+        bool begins = change == SIMULATE_FAULTS_BEGINS;
+        if (change == SIMULATE_FAULTS_STAYS) {
             continue;
         }
-        if (i == SIMULATE_CHIP_BROWN_OUT) {
+        if (i == (begins ? SIMULATE_CHIP_BROWN_OUT : SIMULATE_CHIP_UNPOWERED)) {
             simulate_tmc_reset(tmc, now_ns);
-        } else if (i == SIMULATE_CHIP_STALL) {
+        } else if (i == SIMULATE_CHIP_STALL && begins) {
             block(tmc, to_motor(tmc, tmc->faults.list[i].value));
+        } else if (i == SIMULATE_CHIP_STALL) {
+            unblock(tmc);
         }
     }
 }
 
 void simulate_tmc_update(simulate_tmc_t *tmc, uint64_t now_ns) {
-    begin_faults(tmc, now_ns);
+    look_at_faults(tmc, now_ns);
     simulate_tmc_state_heat(tmc, now_ns);
     if (tmc->too_hot || simulate_faults_active(&tmc->faults, SIMULATE_CHIP_SHORT, now_ns)) {
         tmc->registers[TMC_GSTAT] |= TMC_GSTAT_DRV_ERR;
@@ -225,10 +242,7 @@ bool simulate_tmc_attach(simulate_tmc_t *tmc) {
         tmc->axis->mover = simulate_tmc_state_step;
         tmc->axis->mover_state = tmc;
     }
-    if (tmc->axis != NULL && tmc->axis->has_stops) {
-        tmc->motor.stop_low = to_motor(tmc, tmc->axis->stop_low_steps);
-        tmc->motor.stop_high = to_motor(tmc, tmc->axis->stop_high_steps);
-    }
+    unblock(tmc);
     tmc->mscnt_0 = tmc->motor.rotor;
     if (tmc->diag_gpio != PINS_NONE) {
         host_pads_drive(tmc->diag_gpio, false);

@@ -88,7 +88,9 @@ uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc, uint64_t now_ns) 
 
 bool simulate_tmc_state_off(const simulate_tmc_t *tmc, uint64_t now_ns) {
     bool disabled = (hal_pins_read() & pins_mask(tmc->enable_gpio)) != 0;
-    return disabled || tmc->too_hot || tmc_bits(tmc->registers[TMC_CHOPCONF], 0, 4) == 0 ||
+    return disabled || tmc->too_hot ||
+           simulate_faults_active(&tmc->faults, SIMULATE_CHIP_UNPOWERED, now_ns) ||
+           tmc_bits(tmc->registers[TMC_CHOPCONF], 0, 4) == 0 ||
            simulate_faults_active(&tmc->faults, SIMULATE_CHIP_SHORT, now_ns);
 }
 

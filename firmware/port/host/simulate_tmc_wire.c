@@ -153,7 +153,7 @@ static bool strikes(simulate_tmc_wire_t *wire, simulate_chip_fault_t fault, uint
 }
 
 static bool hears_nothing(simulate_tmc_wire_t *wire, uint64_t now_ns) {
-    return simulate_faults_active(&wire->tmc->faults, SIMULATE_CHIP_HELD_LOW, now_ns) ||
+    return simulate_faults_active(&wire->tmc->faults, SIMULATE_CHIP_UNPOWERED, now_ns) ||
            strikes(wire, SIMULATE_CHIP_DEAF, now_ns) ||
            strikes(wire, SIMULATE_CHIP_UNPLUGGED, now_ns);
 }
@@ -250,7 +250,7 @@ bool simulate_tmc_wire_attach(simulate_tmc_t *tmc) {
 void simulate_tmc_wire_run(uint64_t now_ns) {
     for (unsigned i = 0; i < wires.count; i++) {
         simulate_tmc_wire_t *wire = &wires.list[i];
-        simulate_chip_fault_t fault = SIMULATE_CHIP_HELD_LOW;
+        simulate_chip_fault_t fault = SIMULATE_CHIP_UNPOWERED;
         bool holds = simulate_faults_active(&wire->tmc->faults, fault, now_ns);
         if (holds != wire->holds) {
             wire->holds = holds;

@@ -353,7 +353,7 @@ static void test_a_higher_threshold_is_more_sensitive(void) {
 // ---- Faults -------------------------------------------------------------------------------------
 
 static void set_fault(simulate_chip_fault_t fault, int32_t value, unsigned in_us) {
-    simulate_faults_set(&chip.faults, fault, now_ns() + in_us * 1000u);
+    simulate_faults_set(&chip.faults, fault, now_ns() + in_us * 1000u, UINT64_MAX);
     simulate_faults_limit(&chip.faults, fault, value);
 }
 
@@ -420,6 +420,25 @@ static void test_a_short_raises_diag_by_itself(void) {
     TEST_ASSERT_FALSE(diag_level());
 }
 
+static void test_faults_that_pass(void) {
+    simulate_faults_set(&chip.faults, SIMULATE_CHIP_OVER_TEMPERATURE, now_ns() + 1000000,
+                        now_ns() + 2000000);
+    simulate_faults_limit(&chip.faults, SIMULATE_CHIP_OVER_TEMPERATURE, 160);
+    wait_us(1500);
+    TEST_ASSERT_TRUE(diag_level());
+    wait_us(1000);
+    TEST_ASSERT_EQUAL_HEX32(0, get(DRV_STATUS) & 0xFFF);
+    TEST_ASSERT_EQUAL_HEX32(2, get(GSTAT));
+    simulate_faults_set(&chip.faults, SIMULATE_CHIP_UNPOWERED, now_ns(), now_ns() + 1000000);
+    wait_us(500);
+    int64_t before = axis.position_steps;
+    steps(4, true, 100);
+    TEST_ASSERT_EQUAL_INT64(before, axis.position_steps);
+    wait_us(500);
+    TEST_ASSERT_EQUAL_HEX32(1, get(GSTAT)); // all is lost when it comes back
+    TEST_ASSERT_EQUAL_UINT32(8, simulate_tmc_microsteps(&chip));
+}
+
 static void test_an_obstacle_at_a_place_from_a_time_on(void) {
     arm();
     set_fault(SIMULATE_CHIP_STALL, 60, 10000);
@@ -484,6 +503,7 @@ int main(void) {
     RUN_TEST(test_brown_out_forgets_and_moves_otherwise);
     RUN_TEST(test_temperatures);
     RUN_TEST(test_a_short_raises_diag_by_itself);
+    RUN_TEST(test_faults_that_pass);
     RUN_TEST(test_an_obstacle_at_a_place_from_a_time_on);
     RUN_TEST(test_switched_off_the_motor_does_not_move);
     RUN_TEST(test_the_place_of_the_axis_is_that_of_the_rotor);

@@ -185,7 +185,7 @@ static void test_writes_are_not_answered_and_all_of_them_count(void) {
 // ---- Faults -------------------------------------------------------------------------------------
 
 static void set_fault(simulate_chip_fault_t fault, int32_t frames) {
-    simulate_faults_set(&chip.faults, fault, now_ns);
+    simulate_faults_set(&chip.faults, fault, now_ns, UINT64_MAX);
     simulate_faults_limit(&chip.faults, fault, frames);
 }
 
@@ -305,7 +305,8 @@ static void test_an_answer_upsets_the_other_driver(void) {
 
 static void test_a_driver_without_supply_holds_the_wire(void) {
     uint8_t reply[8];
-    simulate_faults_set(&second.faults, SIMULATE_CHIP_HELD_LOW, host_clock_now_ns() + 5000000);
+    simulate_faults_set(&second.faults, SIMULATE_CHIP_UNPOWERED, host_clock_now_ns() + 5000000,
+                        UINT64_MAX);
     TEST_ASSERT_EQUAL(HAL_WIRE_DONE, exchange(0, IOIN, reply));
     host_clock_run(host_clock_now_ns() + 5000000, false);
     TEST_ASSERT_EQUAL(HAL_WIRE_HELD_LOW, exchange(0, IOIN, reply));
