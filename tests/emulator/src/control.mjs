@@ -68,7 +68,7 @@ const operations = {
     clear_edges() { board.recorder.edges.length = 0; },
     trace({ file }) { board.recorder.writeTo(file); },
     write_csv({ file }) { writeCsv(file, board.recorder.edges); },
-    write_vcd({ file }) { writeVcd(file, board.recorder.edges); },
+    write_vcd({ file }) { writeVcd(file, board.recorder.edges, Math.round(board.now)); },
     tick_runs() {
         return { runs: board.tickRuns().map((r) => ({ first_ns: r.firstNanos, period_ns: r.periodNanos, count: r.count })) };
     },

@@ -48,15 +48,19 @@ export function writeCsv(file, edges) {
     fs.writeFileSync(file, `${HEADER}\n${csvRows(edges)}`);
 }
 
-// Value change dump, for any waveform viewer.
-export function writeVcd(file, edges) {
+// Value change dump, for any waveform viewer. Each edge is a change, so a pin had the other level before its first one. It
+// ends at `untilNanos`.
+export function writeVcd(file, edges, untilNanos) {
     const pins = [...new Set(edges.filter((_, i) => i % 3 === 1))].sort((a, b) => a - b), id = (gpio) => String.fromCharCode(33 + gpio);
     const lines = ['$timescale 1ns $end', ...pins.map((gpio) => `$var wire 1 ${id(gpio)} GP${gpio} $end`), '$enddefinitions $end'];
-    let last = -1;
+    const before = pins.map((gpio) => `${1 - edges[edges.findIndex((value, i) => i % 3 === 1 && value === gpio) + 1]}${id(gpio)}`);
+    lines.push('#0', '$dumpvars', ...before, '$end');
+    let last = 0;
     for (let i = 0; i < edges.length; i += 3) {
         if (edges[i] !== last) lines.push(`#${last = edges[i]}`);
         lines.push(`${edges[i + 2]}${id(edges[i + 1])}`);
     }
+    if (untilNanos > last) lines.push(`#${untilNanos}`);
     fs.writeFileSync(file, `${lines.join('\n')}\n`);
 }
 

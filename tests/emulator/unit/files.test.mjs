@@ -47,10 +47,10 @@ test('a trace is complete after close, in the order of time', () => {
 
 test('a waveform file has every pin and every change', () => {
     const file = path.join(folder, 'x.vcd');
-    writeVcd(file, [0, 2, 1, 0, 3, 1, 16, 2, 0]);
+    writeVcd(file, [0, 2, 1, 8, 3, 0, 16, 2, 0], 40);
     assert.equal(fs.readFileSync(file, 'utf8'), [
         '$timescale 1ns $end', '$var wire 1 # GP2 $end', '$var wire 1 $ GP3 $end', '$enddefinitions $end',
-        '#0', '1#', '1$', '#16', '0#', ''].join('\n'));
+        '#0', '$dumpvars', '0#', '1$', '$end', '1#', '#8', '0$', '#16', '0#', '#40', ''].join('\n'));
 });
 
 test('UF2: not one, for another chip, beyond the flash', () => {
