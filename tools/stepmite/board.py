@@ -161,11 +161,16 @@ class Board:
         self._echo = any(line.endswith(question) for line in self._screen.lines)
         self._screen.forget()
 
-    def command(self, text: str, timeout_s: float = 15.0) -> list[str]:
+    def command(
+        self,
+        text: str,
+        timeout_s: float = 15.0,
+        on_line: Callable[[str], None] | None = None,
+    ) -> list[str]:
         """Carry out one BASIC line and return what it printed.
 
-        Raises BoardError with the firmware's message if it was refused, BoardGone if no answer
-        came.
+        `on_line` gets each line of it as soon as it has come. Raises BoardError with the firmware's
+        message if it was refused, BoardGone if no answer came.
         """
         if len(text) > LINE_MAX or not text.isascii() or not text.isprintable():
             raise ValueError(f"not a line for the prompt: {text!r}")
@@ -173,7 +178,7 @@ class Board:
         # Without an echo the old prompt would pass for the new one.
         self._screen.clear_current()
         self._write(text.encode("ascii") + b"\r")
-        output = self._answer(text, timeout_s)
+        output = self._answer(text, timeout_s, on_line)
         for number, line in enumerate(output):
             if line.startswith("Error : "):
                 raise BoardError(line.removeprefix("Error : ").strip(), output[:number])
@@ -272,7 +277,9 @@ class Board:
 
     # ---- Underneath ---------------------------------------------------------------------------
 
-    def _answer(self, text: str, timeout_s: float) -> list[str]:
+    def _answer(
+        self, text: str, timeout_s: float, on_line: Callable[[str], None] | None
+    ) -> list[str]:
         """Collect the lines between the echo of `text` and the next prompt.
 
         Gives up after `timeout_s` of silence.
@@ -284,6 +291,8 @@ class Board:
             for line in self._screen.lines:
                 if not echo:
                     output.append(line)
+                    if on_line is not None:
+                        on_line(line)
                 elif line.endswith(text):
                     echo = False
                 elif line:

@@ -139,6 +139,28 @@ def plot(
 
 
 @app.command()
+def sgtune(
+    driver: Annotated[str, typer.Argument(help="Axis of the driver, X for instance, or address.")],
+    feed: Annotated[float, typer.Argument(min=0.001, help="Feed of the jog in mm/min.")],
+    distance: Annotated[
+        float | None, typer.Option(help="Way of the jog in mm; left out: one second's.")
+    ] = None,
+    tx_pin: Annotated[
+        str | None, typer.Option(help="Wire of the driver, where an address is not enough.")
+    ] = None,
+    picture: Annotated[
+        Path | None, typer.Option("--plot", dir_okay=False, help="Picture to write, PNG or SVG.")
+    ] = None,
+    port: PortOption = None,
+) -> None:
+    """Jog an axis with a TMC2209 and see what StallGuard reads, for sensorless homing."""
+    from stepmite import sgtune_cmd
+
+    line = sgtune_cmd.line_to_type(driver, feed, distance, tx_pin)
+    raise typer.Exit(sgtune_cmd.run(_device(port), line, picture))
+
+
+@app.command()
 def emulate(
     uf2: Annotated[Path, typer.Argument(exists=True, dir_okay=False, help="Firmware to boot.")],
     pty: Annotated[Path | None, typer.Option(help="Link to make to the USB serial port.")] = None,
