@@ -12,6 +12,7 @@
 #include "basic_cmds/setpin.h"
 #include "basic_cmds/tables.h"
 #include "basic_cmds/tmc.h"
+#include "basic_cmds/tmc_homing.h"
 #include "gcode/gcode_job.h"
 #include "stepper/stepper_safety.h"
 
@@ -33,6 +34,10 @@ const size_t basic_cmds_table_count = COUNT_OF_ARRAY(basic_cmds_tables);
 
 const basic_device_t *const basic_cmds_devices[] = {&com_device};
 const size_t basic_cmds_device_count = COUNT_OF_ARRAY(basic_cmds_devices);
+
+void basic_cmds_start(void) {
+    tmc_homing_start();
+}
 
 void basic_cmds_clear(void) {
     com_clear();

@@ -13,6 +13,9 @@ extern const size_t basic_cmds_table_count;
 extern const struct basic_device *const basic_cmds_devices[];
 extern const size_t basic_cmds_device_count;
 
+// Before anything else here.
+void basic_cmds_start(void);
+
 // A new program or RUN: what the last program made of pins is put back.
 void basic_cmds_clear(void);
 

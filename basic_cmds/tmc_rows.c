@@ -3,6 +3,7 @@
 #include "basic_cmds/tables.h"
 #include "basic_cmds/tmc.h"
 #include "basic_cmds/tmc_report.h"
+#include "basic_cmds/tmc_sgtune.h"
 #include "basic_cmds/tmc_status.h"
 #include "basic_cmds/tmc_tune.h"
 
@@ -68,6 +69,16 @@ static const basic_arg_spec_t stall_args[] = {
     {"always", BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1,
      .help = "1: at once and for good; 0: only while homing, which switches it on and off"},
     WIRE_ARG,
+};
+
+static const basic_arg_spec_t sgtune_args[SGTUNE_ARGS] = {
+    [SGTUNE_DRIVER] = DRIVER_ARG,
+    [SGTUNE_FEED] = {"feed", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = 10000000,
+                     .unit = "mm/min or deg/min", .help = "speed of the jog, that of homing"},
+    [SGTUNE_DISTANCE] = {"distance", BASIC_ARG_NUMBER, OPTIONAL, .min = -100000, .max = 100000,
+                         .unit = "mm or deg",
+                         .help = "its way; left out: one second's at the feed"},
+    [SGTUNE_TX_PIN] = WIRE_ARG,
 };
 
 static const basic_arg_spec_t coolstep_args[] = {
@@ -160,6 +171,8 @@ static const basic_command_t commands[] = {
      "Sets the speed from which on StallGuard and CoolStep work; TMC2209 only"},
     {"TMC22XX STALL", ARGS(stall_args), tmc_tune_stall,
      "The same as a speed of the axis it is tied to, by default for homing; shows TCOOLTHRS"},
+    {"TMC22XX SGTUNE", ARGS(sgtune_args), tmc_sgtune,
+     "Jogs the axis of a TMC2209, shows SG_RESULT meanwhile and proposes SGTHRS and TCOOLTHRS"},
     {"TMC22XX COOLSTEP", ARGS(coolstep_args), tmc_tune_coolstep,
      "Lets the current follow the load, where TCOOLTHRS allows it; TMC2209 only"},
     {"TMC22XX STEALTH", ARGS(stealth_args), tmc_tune_stealth,

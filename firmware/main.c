@@ -27,6 +27,7 @@ static void start_basic(void) {
     config.table_count = basic_cmds_table_count;
     config.devices = basic_cmds_devices;
     config.device_count = basic_cmds_device_count;
+    basic_cmds_start();
     basic_start(&config);
 }
 

@@ -1,7 +1,8 @@
 """Section 8 of the STEPPER reference: sensorless homing, with DIAG as an active-high input.
 
-What is written to the driver itself is left out; that DIAG rises while the axis pushes against its
-end and falls when it backs off is what the switches of these tests do.
+In the first half what is written to the driver itself is left out; that DIAG rises while the axis
+pushes against its end and falls when it backs off is what the switches of these tests do. In the
+second half simulated drivers and motors do it, set up and armed over their wire.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from typed import (
     Switch,
     typed,
 )
+
+from stepmite.trace import AxisPins, axis_trace
 
 SET_UP = ["STEPPER INIT", *AXES, "STEPPER HWLIMITS GP16,GP17,GP18,0,0,0,7", "STEPPER RUN"]
 DIAG = [
@@ -163,3 +166,168 @@ def test_a_stall_ends_motion_at_once(profile: int, tmp_path: Path) -> None:
     for reached in np.flatnonzero(places == at):
         gap_ns = trace.step_ns[reached + 1] - trace.step_ns[reached]
         assert gap_ns > 15e6  # the next one leads away, and nothing is braked before
+
+
+# ---- With drivers --------------------------------------------------------------------------------
+
+ONE_TIME = [
+    "TMC22xx GP5, 2209, 0, 800, 30, 16      ' driver init",
+    "STEPPER INIT",
+    "STEPPER AXIS X, GP2,GP3,GP4,,80,6000,500",
+    "STEPPER AXIS Y, GP6,GP7,GP8,,80,6000,500",
+    "STEPPER AXIS Z, GP14,GP15,GP13,,400,3000,200",
+    "STEPPER HWLIMITS GP10, GP11, GP12, 0, 0, 0, 7  ' DIAG inputs, all active-high",
+    "STEPPER RUN",
+]
+"""As printed in 8.3, with the axes filled in."""
+HOME_CYCLE = [
+    "TMC22xx TCOOLTHRS 0, 200                ' arm StallGuard for slave 0",
+    "TMC22xx SGTHRS 0, 120                    ' set sensitivity (tune empirically)",
+    "STEPPER GC G28                            ' run the homing cycle",
+    "TMC22xx TCOOLTHRS 0, 0                    ' disarm so normal moves can't trip",
+]
+"""As printed."""
+TIED = [
+    *(f"TMC22xx GP5,2209,{address},800,30,16" for address in (1, 2)),
+    *(f"TMC22xx AXIS {address},{axis}" for address, axis in enumerate("XYZ")),
+    *(f"TMC22xx SGTHRS {axis},120" for axis in "XYZ"),
+]
+"""All three drivers, and no word of arming."""
+INTO_THE_END = ["STEPPER GC G1 X-6 F3000", WAIT]
+"""Three mm further than the axis goes, at the speed of homing."""
+
+FULL_STEP = 16  # steps
+X_END = -1600
+PLACE = "GP20"
+"""An input that is low where X stands 10 mm and more from its end, however many steps it lost."""
+AXES_WITH_ENDS = [
+    f"axis X step=GP2 dir=GP3 stops={X_END}:1000000",
+    "axis Y step=GP6 dir=GP7 stops=-1000:1000000",
+    "axis Z step=GP14 dir=GP15 stops=-1600:1000000",
+    f"switch pin={PLACE} axis=X from={X_END + 800}",
+]
+DRIVERS = [
+    "tmc2209 tx=GP5 address=0 axis=X diag=GP10 microsteps=16",
+    "tmc2209 tx=GP5 address=1 axis=Y diag=GP11 microsteps=16",
+    "tmc2209 tx=GP5 address=2 axis=Z diag=GP12 microsteps=16",
+]
+THREE = [*AXES_WITH_ENDS, *DRIVERS]
+ONE = [
+    *AXES_WITH_ENDS,
+    DRIVERS[0],
+    "stall pin=GP11 axis=Y to=-1000 rate=1000 hold_us=2000",
+    "stall pin=GP12 axis=Z to=-1600 rate=1000 hold_us=2000",
+]
+"""The others have drivers as well, of which the recipe does not speak."""
+
+
+def pins_of(axis: str) -> AxisPins:
+    step, scale = {"X": (2, 80.0), "Y": (6, 80.0), "Z": (14, 400.0)}[axis]
+    return AxisPins(axis, step, step + 1, False, scale)
+
+
+def thresholds(session: Session, driver: int = 0) -> list[int]:
+    """What was written to TCOOLTHRS of a driver, in order."""
+    return [event["value"] for event in session.report.told("write", driver, "TCOOLTHRS")]
+
+
+def check_disarmed(session: Session, drivers: int) -> None:
+    for driver in range(drivers):
+        assert session.report.register("TCOOLTHRS", driver) == 0
+        assert session.report.register("SGTHRS", driver) == 120
+
+
+def test_the_recipe_with_a_driver(tmp_path: Path) -> None:
+    """8.3 as printed: the axis ends at its stop, DIAG rises, G28 ends at zero; then disarmed."""
+    session = typed(tmp_path, *ONE_TIME, *HOME_CYCLE, PLACES, STATUS, drivers=ONE)
+    assert session.errors() == []
+    assert session.numbers(-2) == [0, 0, 0]
+    assert int(session.number()) & 0xFF == 128
+    assert thresholds(session) == [200, 0]
+    check_disarmed(session, 1)
+    assert [event["value"] for event in session.report.told("diag")] == [1, 0]
+    lowest = axis_trace(session.edges, pins_of("X")).steps().min()
+    assert X_END - 2 * FULL_STEP < lowest < X_END  # as far as the field was ahead of the motor
+    stands = session.report.full_steps()
+    assert stands == pytest.approx((X_END + 240) / FULL_STEP, abs=2)
+
+
+@pytest.mark.parametrize("armed", [False, True])
+def test_a_stall_in_a_normal_move(armed: bool, tmp_path: Path) -> None:
+    """Disarmed it does not trip; left armed it does, which shows that the motor really stalls."""
+    cycle = HOME_CYCLE[:-1] if armed else HOME_CYCLE
+    session = typed(tmp_path, *ONE_TIME, *cycle, *INTO_THE_END, STATUS, drivers=ONE)
+    assert session.errors() == []
+    assert ("X_MIN" in session.output) == armed
+    assert bool(int(session.number()) & 128) != armed
+    assert session.level(4) == armed  # drivers off
+    assert len(session.report.told("diag")) == (4 if armed else 2)
+    if not armed:
+        assert session.report.drivers[0]["slips"] > 0
+
+
+def test_no_arming_lines_at_all(tmp_path: Path) -> None:
+    """Three drivers tied to their axes: each is armed for its approach, and only then."""
+    session = typed(
+        tmp_path,
+        *ONE_TIME,
+        *TIED,
+        "STEPPER GC G28",
+        PLACES,
+        STATUS,
+        *INTO_THE_END,
+        STATUS,
+        drivers=THREE,
+    )
+    assert session.errors() == []
+    assert session.numbers(-5) == [0, 0, 0]
+    assert int(session.number(-4)) & 0xFF == 128
+    assert int(session.number()) & 0xFF == 128  # the stall in the end has not tripped
+    armed = [
+        (event["driver"], event["value"] > 0)
+        for event in session.report.events
+        if event["do"] == "write" and event["register"] == "TCOOLTHRS"
+    ]
+    assert armed == [(driver, on) for driver in (2, 0, 1) for on in (True, False)]
+    check_disarmed(session, 3)
+
+
+def test_armed_only_during_the_approach(tmp_path: Path) -> None:
+    """At rest before the first step towards the end, and again before the axis pulls off."""
+    session = typed(tmp_path, *ONE_TIME, *TIED, "STEPPER GC G28 X0", drivers=THREE)
+    assert session.errors() == []
+    on_ms, off_ms = (event["ms"] for event in session.report.told("write", 0, "TCOOLTHRS"))
+    trace = axis_trace(session.edges, pins_of("X"))
+    turn = np.flatnonzero(np.diff(trace.direction))[0]
+    assert on_ms < trace.step_ns[0] / 1e6
+    assert trace.step_ns[turn] / 1e6 < off_ms < trace.step_ns[turn + 1] / 1e6
+
+
+def test_it_repeats_within_two_full_steps(tmp_path: Path) -> None:
+    """From where homing ends the same place of the axis is the same way off, from all starts."""
+    starts = [3, 5.37, 8.1, 11.93, 20, 33.3, 47.77, 60]
+    probed = "PRINT PEEK(STEPPER PROBE X)"
+    lines = [*ONE_TIME, *TIED, f"STEPPER PROBE {PLACE}"]
+    lines += ["STEPPER GC G28"]
+    for start in starts:
+        lines += ["STEPPER GC G28 X0", "STEPPER GC G38.2 X20 F600", probed]
+        lines += [f"STEPPER GC G1 X{start} F3000"]
+    session = typed(tmp_path, *lines, drivers=THREE)
+    assert session.errors() == []
+    found = [session.number(i) for i, line in enumerate(lines) if line == probed]
+    assert len(found) == len(starts)
+    assert max(found) - min(found) <= 2 * FULL_STEP / 80
+    assert all(abs(place - 7) <= 2 * FULL_STEP / 80 for place in found)
+
+
+@pytest.mark.parametrize("fault", ["unplugged", "silent", "deaf"])
+def test_a_driver_that_cannot_be_armed(fault: str, tmp_path: Path) -> None:
+    """Its axis does not move; the error names it."""
+    broken = [*AXES_WITH_ENDS, f"{DRIVERS[0]} fault={fault}@5000", *DRIVERS[1:]]
+    lines = [*ONE_TIME, *TIED, "TMC22xx MONITOR 0", "PAUSE 6000", "STEPPER GC G28 X0", STATUS]
+    session = typed(tmp_path, *lines, drivers=broken)
+    assert len(session.errors()) == 1
+    assert session.errors()[0].startswith("Homing X failed: ")
+    assert "address 0 on GP5" in session.errors()[0]
+    assert int(session.number()) & 128 == 0
+    assert len(axis_trace(session.edges, pins_of("X")).step_ns) == 0

@@ -1,0 +1,140 @@
+// StallGuard around homing: the drivers tied to the axes of a group are armed for their approach and
+// disarmed behind it, so that a heavy cut cannot look like the end of an axis. Which drivers: a
+// TMC2209 in StealthChop with a threshold SGTHRS; all others find no stall. Context: main loop.
+#include "basic_cmds/tmc_homing.h"
+
+#include "basic/basic.h"
+#include "stepper/stepper_homing.h"
+#include "tmc22xx/tmc22xx.h"
+
+// Without a threshold of the user's a stall is looked for from this part of the seek feed on: so
+// the approach is above it with room to spare, and most of its ramp below.
+#define FEED_PART 0.6
+
+static struct {
+    bool begun;       // a job is under way that has begun
+    bool to_on;       // with this
+    uint32_t drivers; // that are armed, or were to be; a mask
+} arming;
+
+// ---- Which drivers ------------------------------------------------------------------------------
+
+static bool is_of(unsigned driver, uint32_t axes, tmc22xx_info_t *info) {
+    return tmc22xx_info(driver, info) && info->axis < STEPPER_HOME_AXES &&
+           ((axes >> info->axis) & 1) != 0;
+}
+
+static bool finds_stalls(const tmc22xx_settings_t *settings, const tmc22xx_info_t *info) {
+    return settings->chip == 2209 && settings->stealth && info->sgthrs > 0;
+}
+
+static err_t check_driver(unsigned driver, const tmc22xx_info_t *info) {
+    const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
+    char name = STEPPER_AXIS_LETTERS[info->axis];
+    bool needed = settings->chip == 2209 && stepper_home_halts((axis_id_t)info->axis);
+    if (!needed || finds_stalls(settings, info)) {
+        return ERR_OK;
+    }
+    if (settings->stealth) {
+        return err_raise(ERR_TMC_NOT_ARMED,
+                         "%c needs TMC22xx SGTHRS %c,value (or STEPPER HOME %c,,,latch if that is "
+                         "a switch)",
+                         name, name, name);
+    }
+    return err_raise(ERR_TMC_NOT_ARMED,
+                     "%c needs StealthChop: TMC22xx STEALTH (or STEPPER HOME %c,,,latch if that "
+                     "is a switch)",
+                     name, name);
+}
+
+// An axis that would run against its end without noticing is refused before anything moves.
+static err_t check(uint32_t axes) {
+    err_t err = ERR_OK;
+    for (unsigned driver = 0; driver < TMC22XX_DRIVERS && err == ERR_OK; driver++) {
+        tmc22xx_info_t info;
+        if (is_of(driver, axes, &info)) {
+            err = check_driver(driver, &info);
+        }
+    }
+    return err;
+}
+
+static uint32_t seek_tstep(axis_id_t axis, unsigned microsteps) {
+    stepper_axis_t config;
+    stepper_home_t home;
+    stepper_axis_config(axis, &config);
+    stepper_home_settings(axis, &home);
+    return tmc22xx_tstep(FEED_PART * home.seek / 60.0 * config.steps_per_unit, microsteps);
+}
+
+// The drivers to be armed, each with a threshold.
+static uint32_t choose(uint32_t axes) {
+    uint32_t drivers = 0;
+    for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
+        tmc22xx_info_t info;
+        const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
+        if (is_of(driver, axes, &info) && finds_stalls(settings, &info)) {
+            uint32_t tstep = seek_tstep((axis_id_t)info.axis, settings->microsteps);
+            tmc22xx_keep_threshold(driver, tstep, false);
+            drivers |= 1u << driver;
+        }
+    }
+    return drivers;
+}
+
+// Those of them that are still there.
+static uint32_t left_armed(void) {
+    uint32_t drivers = 0;
+    for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
+        bool there = tmc22xx_driver(driver) != NULL;
+        drivers |= there ? arming.drivers & (1u << driver) : 0;
+    }
+    return drivers;
+}
+
+// ---- The hook -----------------------------------------------------------------------------------
+
+static stepper_arm_t begin(uint32_t axes, bool on) {
+    arming.drivers = on ? choose(axes) : left_armed();
+    if (arming.drivers == 0) {
+        return STEPPER_ARM_DONE;
+    }
+    err_t err = tmc22xx_begin_arm(arming.drivers, on);
+    arming.begun = err == ERR_OK;
+    arming.to_on = on;
+    return err == ERR_OK || err == ERR_TMC_BUSY ? STEPPER_ARM_BUSY : STEPPER_ARM_FAILED;
+}
+
+// A stop may want the opposite before the job has come to its end.
+static stepper_arm_t take_on(uint32_t axes, bool on) {
+    if (!arming.begun) {
+        return begin(axes, on);
+    }
+    if (tmc22xx_arm_busy()) {
+        return STEPPER_ARM_BUSY;
+    }
+    arming.begun = false;
+    if (arming.to_on != on) {
+        return begin(axes, on);
+    }
+    return tmc22xx_arm_result() == ERR_OK ? STEPPER_ARM_DONE : STEPPER_ARM_FAILED;
+}
+
+static stepper_arm_t arm(uint32_t axes, bool on) {
+    if (stepper_cycle() != STEPPER_CYCLE_NONE) {
+        return take_on(axes, on);
+    }
+    err_kept_t kept; // the statement in the foreground may be about to tell its error
+    err_keep(&kept);
+    stepper_arm_t answer = take_on(axes, on);
+    if (answer == STEPPER_ARM_FAILED) {
+        basic_notice("StallGuard is not switched off: %s", err_message());
+    }
+    err_put_back(&kept);
+    return answer;
+}
+
+void tmc_homing_start(void) {
+    static const stepper_homing_hook_t hook = {check, arm};
+    stepper_homing_set_hook(&hook);
+}
