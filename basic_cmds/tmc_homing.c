@@ -1,5 +1,5 @@
-// StallGuard around homing: the drivers tied to the axes of a group are armed for their approach and
-// disarmed behind it, so that a heavy cut cannot look like the end of an axis. Which drivers: a
+// StallGuard around homing: the drivers tied to the axes of a group are armed for their approach,
+// and disarmed behind it, so that a heavy cut cannot look like the end of an axis. Which drivers: a
 // TMC2209 in StealthChop with a threshold SGTHRS; all others find no stall. Context: main loop.
 #include "basic_cmds/tmc_homing.h"
 

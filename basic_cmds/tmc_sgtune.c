@@ -22,9 +22,9 @@
 #define FASTER_PART 1.01     // and this as a new highest one
 #define DISTANCE_SECONDS 1.0 // at the feed, if no distance is given
 
-// A stall is to be told when SG_RESULT has fallen to two thirds of the lowest value of free running.
-// It comes at SG_RESULT <= 2 * SGTHRS, so SGTHRS is a third of it. The third that is left above it is
-// for load, for wear, and for a motor that is cold or hot.
+// A stall is to be told when SG_RESULT has fallen to two thirds of its lowest value in free
+// running. That is at SG_RESULT <= 2 * SGTHRS, so SGTHRS is a third of it. The third that is left
+// above is for load, for wear, and for a motor that is cold or hot.
 #define SGTHRS_DIVISOR 3u
 #define SGTHRS_MAX 255u
 // Below this the difference to a stall, which is near 0, is lost in the noise of single readings.

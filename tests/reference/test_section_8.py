@@ -331,3 +331,66 @@ def test_a_driver_that_cannot_be_armed(fault: str, tmp_path: Path) -> None:
     assert "address 0 on GP5" in session.errors()[0]
     assert int(session.number()) & 128 == 0
     assert len(axis_trace(session.edges, pins_of("X")).step_ns) == 0
+
+
+# ---- Thresholds and faults -----------------------------------------------------------------------
+
+
+def stops_at(folder: Path, sgthrs: int) -> float:
+    """Where X was found to stall, in mm from its true end, with a threshold."""
+    folder.mkdir()
+    lines = [*ONE_TIME, *TIED, f"TMC22xx SGTHRS X,{sgthrs}", "STEPPER GC G28 X0"]
+    session = typed(folder, *lines, drivers=THREE)
+    lowest = axis_trace(session.edges, pins_of("X")).steps().min()
+    return (int(lowest) - X_END) / 80
+
+
+def test_higher_is_more_sensitive(tmp_path: Path) -> None:
+    """The lowest finds the end as well; a very high one takes free running for a stall."""
+    lowest, middle, highest = (stops_at(tmp_path / str(value), value) for value in (1, 120, 250))
+    assert lowest <= middle < 0
+    assert highest > 5
+
+
+def test_too_slow_for_the_threshold(tmp_path: Path) -> None:
+    """TSTEP 200 is 3000 mm/min; at 600 the motor hammers against its end, and homing fails."""
+    slow = "STEPPER HOME X,,600,0,,30"
+    session = typed(tmp_path, *ONE_TIME, slow, *HOME_CYCLE[:2], "STEPPER GC G28 X0", drivers=ONE)
+    assert len(session.errors()) == 1
+    assert "never closed within" in session.errors()[0]
+    assert session.report.told("diag") == []
+    assert session.report.drivers[0]["slips"] > 0
+
+
+def test_spreadcycle_finds_no_stall(tmp_path: Path) -> None:
+    """Armed by hand, so that nobody could refuse it."""
+    spread = ONE_TIME[0].replace("16 ", "16,,0 ", 1)
+    lines = [spread, *ONE_TIME[1:], "STEPPER HOME X,,,0,,30", *HOME_CYCLE[:2], "STEPPER GC G28 X0"]
+    session = typed(tmp_path, *lines, drivers=ONE)
+    assert len(session.errors()) == 1
+    assert "never closed within" in session.errors()[0]
+    assert session.report.told("diag") == []
+
+
+MOVE = ["STEPPER POSITION HOME", "STEPPER GC G1 X60 F1200", "PAUSE 4000", STATUS]
+
+
+def test_a_fault_of_a_driver_raises_diag(tmp_path: Path) -> None:
+    """Overheated and off, in a normal move: motion halts, drivers off, position unknown."""
+    broken = [*AXES_WITH_ENDS, f"{DRIVERS[0]} fault=over-temperature:165@1500", *ONE[-2:]]
+    session = typed(tmp_path, *ONE_TIME, *MOVE, drivers=broken)
+    assert session.errors() == []
+    assert "X_MIN" in session.output
+    assert int(session.number()) & 128 == 0
+    assert session.level(4) == 1
+    assert axis_trace(session.edges, pins_of("X")).step_ns[-1] < 1502e6
+
+
+def test_the_temperature_warning_does_not(tmp_path: Path) -> None:
+    """The move goes on to its end, and the user is told."""
+    warm = [*AXES_WITH_ENDS, f"{DRIVERS[0]} fault=over-temperature:130@1500", *ONE[-2:]]
+    session = typed(tmp_path, *ONE_TIME, *MOVE, drivers=warm)
+    assert session.errors() == []
+    assert int(session.number()) & 128 == 128
+    assert axis_trace(session.edges, pins_of("X")).end_steps() == 60 * 80
+    assert "hot" in session.output
