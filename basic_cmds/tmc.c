@@ -3,6 +3,9 @@
 
 #include "stepper/stepper.h"
 
+// Somebody has used drivers since RUN. Without any, the background of each statement costs nothing.
+static bool in_use;
+
 // ---- Waiting for drivers ------------------------------------------------------------------------
 
 // A statement that Ctrl-C ends fails, so that no variable takes a value that nobody has read. The
@@ -12,6 +15,7 @@ static err_t broken_off(void) {
 }
 
 err_t tmc_await_turn(void) {
+    in_use = true;
     while (tmc22xx_busy()) {
         if (!basic_wait(tmc22xx_wake_us())) {
             return broken_off();
@@ -180,12 +184,16 @@ err_t tmc_close(const basic_arg_t *args, size_t count) {
 // ---- Life cycle ---------------------------------------------------------------------------------
 
 void tmc_new(void) {
-    tmc22xx_close(PINS_NONE);
+    if (in_use) {
+        tmc22xx_close(PINS_NONE); // no error for us if there is no wire
+        in_use = false;
+    }
     tmc22xx_verify(true);
     tmc22xx_monitor(true);
 }
 
-void tmc_background(void) {
+// Apart, so that its stack costs nothing where there are no drivers.
+static __attribute__((noinline)) void tend(void) {
     tmc22xx_background();
     char text[ERR_MESSAGE_SIZE];
     if (tmc22xx_next_event(text, sizeof text)) {
@@ -193,5 +201,11 @@ void tmc_background(void) {
     }
     if (tmc22xx_wake_us() != UINT64_MAX) {
         basic_wake_at(tmc22xx_wake_us());
+    }
+}
+
+void tmc_background(void) {
+    if (in_use) {
+        tend();
     }
 }
