@@ -26,19 +26,21 @@
 static const basic_config_t *config;
 
 // It may come between an error and its message.
-static void tend_files(void) {
-    char before[ERR_MESSAGE_SIZE];
-    strcpy(before, err_message());
+static __attribute__((noinline)) void tend_files(void) {
+    err_kept_t kept;
+    err_keep(&kept);
     if (files_background() != ERR_OK) {
         basic_notice("Error : %s", err_message());
-        err_raise(ERR_ARGUMENT, "%s", before);
     }
+    err_put_back(&kept);
 }
 
 // Whenever the console waits and every few statements.
 static void background(void) {
     messages_show_notices();
-    tend_files();
+    if (files_background_waits()) {
+        tend_files();
+    }
     watchdog_look();
     if (config->background != NULL) {
         config->background();

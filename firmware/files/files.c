@@ -284,6 +284,10 @@ void files_abandon(int number) {
     }
 }
 
+bool files_background_waits(void) {
+    return files.closing != 0;
+}
+
 err_t files_background(void) {
     if (files.closing == 0 || !hal_storage_is_writable()) {
         return ERR_OK;

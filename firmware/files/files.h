@@ -31,6 +31,9 @@ err_t files_format(void);
 // error of a file that was closed while motion was under way and cannot be stored.
 err_t files_background(void);
 
+// There is something for files_background() to do.
+bool files_background_waits(void);
+
 // ---- Open files ---------------------------------------------------------------------------------
 
 typedef enum {
