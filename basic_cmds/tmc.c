@@ -1,6 +1,7 @@
 // TMC22xx: set-up of drivers, WIRE, AXIS, VERIFY, MONITOR, CLOSE. Context: main loop.
 #include "basic_cmds/tmc.h"
 
+#include "basic_cmds/report.h"
 #include "stepper/stepper.h"
 
 // Somebody has used drivers since RUN. Without any, the background of each statement costs nothing.
@@ -68,7 +69,10 @@ err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fo
 }
 
 err_t tmc_check_still(const char *what) {
-    if (stepper_active() <= 0) {
+    stepper_status_t status;
+    stepper_status(&status);
+    bool queued = status.initialized && status.blocks_free != status.blocks;
+    if (report_active() <= 0 && !queued) {
         return ERR_OK;
     }
     return err_raise(ERR_ARGUMENT, "%s: cannot change while motion is active or queued", what);
