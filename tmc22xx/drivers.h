@@ -32,7 +32,7 @@ enum {
     DRIVERS_SHORT = 4,
     DRIVERS_UNDERVOLTAGE = 8,
     DRIVERS_ERROR = 16, // was off, for one of the reasons above
-    DRIVERS_LOST = 32,  // has been reset since it was set up
+    DRIVERS_LOST = 32,  // has been reset since it was set up; until it is again
     DRIVERS_SILENT = 64
 };
 

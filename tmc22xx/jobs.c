@@ -280,10 +280,20 @@ static void read_gstat(void) {
     access_read(TMC22XX_REG_GSTAT);
 }
 
+// The flag of a reset may have been cleared by a set-up that failed behind that.
+static bool was_reset(uint32_t gstat) {
+    return TMC22XX_TAKE(gstat, GSTAT, reset) != 0 ||
+           (driver() != NULL && (driver()->conditions & DRIVERS_LOST) != 0);
+}
+
 // After power-up what was written later than the set-up is gone; if there was no power-up,
 // registers of a driver that is new here may have been written in an earlier life of ours.
 static void end_status(void) {
-    bool reset = TMC22XX_TAKE(access_value(), GSTAT, reset) != 0;
+    bool reset = was_reset(access_value());
+    if (reset && driver() != NULL) {
+        driver()->conditions |= DRIVERS_LOST;
+        driver()->told |= DRIVERS_LOST; // it is being mended
+    }
     for (unsigned i = 0; i < KEPT_COUNT; i++) {
         bool is_later = (KEPT_LATER >> i & 1u) != 0;
         bool is_wanted = driver() == NULL ? !reset : reset && drivers_wanted(&job.entry, i) != 0;
@@ -292,14 +302,12 @@ static void end_status(void) {
         }
     }
     job.pending &= (uint16_t)drivers_has(&job.entry, job.pending);
-    enter(PHASE_CLEAR);
+    enter(access_value() != 0 ? PHASE_CLEAR : PHASE_DELAY);
 }
 
+// Clears the flags that were seen and no others: a reset from now on is to be found at the end.
 static void begin_clear(void) {
-    access_write(TMC22XX_REG_GSTAT,
-                 TMC22XX_MASK(GSTAT, reset) | TMC22XX_MASK(GSTAT, drv_err) |
-                     TMC22XX_MASK(GSTAT, uv_cp),
-                 true);
+    access_write(TMC22XX_REG_GSTAT, access_value(), true);
 }
 
 static void end_clear(void) {
@@ -319,6 +327,15 @@ static void begin_raw(void) {
     access_write(job.raw_reg, job.raw_value, job.verify);
 }
 
+// Whoever clears the flag of a reset himself says that the settings are well.
+static void end_raw(void) {
+    if (job.raw_reg == TMC22XX_REG_GSTAT && TMC22XX_TAKE(job.raw_value, GSTAT, reset) != 0) {
+        driver()->conditions &= (uint8_t)~DRIVERS_LOST;
+        job.entry.conditions = driver()->conditions;
+    }
+    end_writing();
+}
+
 static void begin_read(void) {
     access_read(job.kind == KIND_MONITOR ? look_registers[job.next] : reading.registers[job.next]);
 }
@@ -336,7 +353,8 @@ static void end_read(void) {
 }
 
 static void end_look(void) {
-    bool reset = TMC22XX_TAKE(access_value(), GSTAT, reset) != 0;
+    bool reset = job.kind == KIND_SET_UP ? TMC22XX_TAKE(access_value(), GSTAT, reset) != 0
+                                         : was_reset(access_value());
     if (reset && job.kind == KIND_READ) {
         driver()->conditions |= DRIVERS_LOST; // told as the monitor's
     }
@@ -375,7 +393,7 @@ static const struct {
     [PHASE_CLEAR] = {begin_clear, end_clear},
     [PHASE_DELAY] = {begin_delay, end_delay},
     [PHASE_WRITE] = {begin_write, end_write},
-    [PHASE_RAW] = {begin_raw, end_writing},
+    [PHASE_RAW] = {begin_raw, end_raw},
     [PHASE_READ] = {begin_read, end_read},
     [PHASE_LOOK] = {read_gstat, end_look},
     [PHASE_RESTORE] = {begin_restore, end_restore},

@@ -78,7 +78,7 @@ void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status) {
     bool is_short = has(drv_status, shorts);
     bool undervoltage = has(gstat, TMC22XX_MASK(GSTAT, uv_cp));
     bool error = has(gstat, TMC22XX_MASK(GSTAT, drv_err));
-    bool lost = has(gstat, TMC22XX_MASK(GSTAT, reset));
+    bool lost = has(gstat, TMC22XX_MASK(GSTAT, reset)) || (entry->conditions & DRIVERS_LOST) != 0;
     entry->conditions =
         (uint8_t)((hot && !overheated ? DRIVERS_HOT : 0) | (overheated ? DRIVERS_OVERHEATED : 0) |
                   (is_short ? DRIVERS_SHORT : 0) | (undervoltage ? DRIVERS_UNDERVOLTAGE : 0) |

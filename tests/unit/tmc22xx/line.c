@@ -198,6 +198,14 @@ static void add_late(uint64_t time_us, uint8_t tx_gpio, const uint8_t *bytes) {
     state.late_count++;
 }
 
+static void forget_late(uint64_t before_us) {
+    for (size_t i = state.late_count; i-- > 0;) {
+        if (state.late[i].time_us < before_us) {
+            state.late[i] = state.late[--state.late_count];
+        }
+    }
+}
+
 // Takes a late answer that begins in this time off the list.
 static bool take_late(uint8_t tx_gpio, uint64_t from_us, uint64_t to_us, uint64_t *time_us) {
     for (size_t i = 0; i < state.late_count; i++) {
@@ -230,7 +238,7 @@ static bool answer(line_chip_t *chip, uint8_t reg, line_fault_t fault, uint64_t 
     case LINE_NO_REPLY:
         return false;
     case LINE_BAD_CRC:
-        reply[3 + reg % 4] ^= 0x01;
+        reply[6 - line.frame_count / 8 % 4] ^= (uint8_t)(1u << line.frame_count % 8);
         break;
     case LINE_OTHER_REG:
         make_reply(chip, reg ^ 0x01, reply);
@@ -257,6 +265,7 @@ static void exchange(const hal_wire_t *wire, const uint8_t *send, size_t size, s
     bool collides = false; // with an answer that comes while this is being sent
     uint64_t time_us;
     uint64_t before_us = line.time_us - bits_us(80, wire->baud);
+    forget_late(before_us);
     while (take_late(wire->tx_gpio, before_us, sent_us, &time_us)) {
         collides = true;
     }

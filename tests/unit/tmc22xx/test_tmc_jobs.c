@@ -121,7 +121,7 @@ static void test_a_driver_that_was_just_switched_on(void) {
     line_chip_t *chip = line_add(WIRE, 0);
     line_expect(NULL);
     unsigned driver = set_up(WIRE, 0);
-    TEST_ASSERT_EQUAL_STRING("R06 R01 R02 W01 00000007 R02 W03 00000200 R02 W00 000001C0 R02 "
+    TEST_ASSERT_EQUAL_STRING("R06 R01 R02 W01 00000001 R02 W03 00000200 R02 W00 000001C0 R02 "
                              "W10 00081907 R02 W11 00000014 R02 W6C 14030153 R02 "
                              "W70 CF0D0E24 R02 R01 ",
                              sent());
