@@ -2,7 +2,10 @@
 //
 //   reading:   [another register until one is answered, if the wire is not trusted] the register
 //   writing:   [IFCNT] write, IFCNT - counted? - else the write again
-//                             `- counted from 255 to 0, or something else? GSTAT: a reset?
+//                             `- something else? GSTAT: a reset?
+//
+// From 255 the count goes on to 0, which may also be a reset at the wrong time. Whoever writes looks
+// for the flag of a reset when all is written, and finds it then.
 #include "tmc22xx/access.h"
 
 #include "base/base.h"
@@ -132,23 +135,15 @@ static access_state_t send_again(void) {
     return ACCESS_BUSY;
 }
 
-static bool is_counted(void) {
-    return access.found == (uint8_t)(access.count + 1u);
-}
-
-static access_state_t succeed(void) {
-    access.count = access.found;
-    return ACCESS_DONE;
-}
-
 static access_state_t judge_count(uint32_t value) {
     access.found = (uint8_t)value;
     if (access.found == access.count) {
         access.in_doubt = false;
         return send_again();
     }
-    if (is_counted() && (access.found != 0 || !access.knows_resets)) {
-        return succeed();
+    if (access.found == (uint8_t)(access.count + 1u)) {
+        access.count = access.found;
+        return ACCESS_DONE;
     }
     if (!access.knows_resets) {
         return send_again();
@@ -163,7 +158,7 @@ static access_state_t judge_reset(uint32_t gstat) {
     if (reset && access.reg != TMC22XX_REG_GSTAT) {
         return fail(ACCESS_LOST);
     }
-    return is_counted() && !reset ? succeed() : send_again();
+    return send_again();
 }
 
 // A register has been read in a stage of the access.

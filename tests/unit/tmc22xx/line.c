@@ -245,6 +245,7 @@ static bool answer(line_chip_t *chip, uint8_t reg, line_fault_t fault, uint64_t 
         break;
     case LINE_OTHER_MASTER:
         reply[1] = 0xFE;
+        reply[6] ^= 1;
         reply[7] = crc(reply, 7);
         break;
     case LINE_LATE:
