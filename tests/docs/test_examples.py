@@ -26,7 +26,15 @@ PAGES = [
     "docs/testing.md",
     "docs/basic.md",
     "docs/gcode.md",
+    "docs/tmc22xx.md",
 ]
+TYPED: dict[str, list[str]] = {
+    "README.md": [],
+    "docs/user-guide.md": [],
+    "docs/programs.md": [],
+    "docs/tmc22xx.md": ["--machine", str(ROOT / "examples/sensorless.txt")],
+}
+"""Pages whose blocks are typed, and the options of the host program there."""
 CTRL_Z = "\x1a"
 PROGRAMS = (
     "Into the board",
@@ -120,12 +128,13 @@ def failed(answer: list[str]) -> bool:
     return any("Error :" in line for line in answer)
 
 
-@pytest.mark.parametrize("page", PAGES[:3])
+@pytest.mark.parametrize("page", TYPED)
 def test_what_a_page_says_to_type_works(page: str) -> None:
     """Each answer that is printed in the page is the real one, and nothing else is refused."""
     typed = script(page)
     assert len(typed) >= 5
-    for step, answer in zip(typed, converse([step.line for step in typed]), strict=True):
+    answers = converse([step.line for step in typed], *TYPED[page])
+    for step, answer in zip(typed, answers, strict=True):
         if step.answer:
             assert answer == step.answer, step.line
         else:
@@ -212,14 +221,15 @@ def test_machine_bas_can_be_sent_twice() -> None:
 def known_commands() -> set[str]:
     """Return the names of all command rows, from the reference made of them."""
     text = (ROOT / "docs/reference.md").read_text(encoding="utf-8")
-    return set(re.findall(r"^## (?:ON )?(STEPPER \w+)", text, re.MULTILINE))
+    return set(re.findall(r"^## (?:ON )?((?:STEPPER|TMC22XX) \w+)", text, re.MULTILINE))
 
 
 @pytest.mark.parametrize("page", PAGES)
 def test_commands_named_in_the_text_exist(page: str) -> None:
-    """Each `STEPPER ...` in running text is a command."""
+    """Each `STEPPER ...` and `TMC22xx ...` in running text is a command."""
     text = (ROOT / page).read_text(encoding="utf-8")
     named = re.findall(r"(?<!PEEK\()STEPPER [A-Z]{2,}", re.sub(r"`STEPPER\s+", "`STEPPER ", text))
+    named += [f"TMC22XX {word}" for word in re.findall(r"TMC22xx ([A-Z]{3,})", text)]
     assert {name for name in named if not name.endswith("COMMANDS")} <= known_commands()
 
 

@@ -46,7 +46,10 @@ def _ask(board: Board, line: str, console: Console) -> list[str]:
     """Type the line; show rows as they come. Returns the whole answer."""
     rows = Rows()
     with Live(rows.table, console=console, vertical_overflow="visible"):
-        return board.command(line, timeout_s=JOG_S, on_line=rows.add)
+        answer = board.command(line, timeout_s=JOG_S, on_line=rows.add)
+    if not console.is_terminal:
+        console.print()  # where it is no terminal the table ends without
+    return answer
 
 
 def run(device: str, line: str, picture: Path | None = None, console: Console | None = None) -> int:
@@ -74,7 +77,8 @@ def _conclude(
 ) -> int:
     for text in tuning.says:
         proposed = text in tuning.commands
-        console.print(text, style="bold green" if proposed else "", markup=False, highlight=False)
+        style = "bold green" if proposed else ""
+        console.print(text, style=style, markup=False, highlight=False, soft_wrap=True)
     if picture is not None and tuning.rows:
         sgtune.draw(tuning, line, picture)
         console.print(f"Picture: {picture}", markup=False, highlight=False)
