@@ -33,6 +33,9 @@ bool jobs_busy(void);
 bool jobs_arm_busy(void);
 void jobs_step(void);
 
+// Of a job for several drivers: turns to the next one; false: there is none.
+bool jobs_turn_to_next_armed(void);
+
 // Ends a job of a statement as soon as it can.
 void jobs_give_up(void);
 

@@ -1,0 +1,138 @@
+// The ends of jobs: what succeeded counts, what failed is put back as far as it can be. Context:
+// main loop.
+#include "tmc22xx/endings.h"
+
+#include "tmc22xx/access.h"
+#include "tmc22xx/job.h"
+#include "tmc22xx/jobs.h"
+#include "tmc22xx/monitor.h"
+#include "tmc22xx/phases.h"
+#include "tmc22xx/wires.h"
+
+static outcome_t statement_outcome, arm_outcome;
+
+const outcome_t *endings_of_statement(void) {
+    return &statement_outcome;
+}
+
+const outcome_t *endings_of_arm(void) {
+    return &arm_outcome;
+}
+
+// ---- The end ------------------------------------------------------------------------------------
+
+void endings_finish(void) {
+    if (job.kind == JOB_ARM) {
+        arm_outcome = job.outcome;
+    } else if (job.kind != JOB_MONITOR) {
+        statement_outcome = job.outcome;
+    }
+    job.kind = JOB_NONE;
+    if (job.opened && !drivers_on(job.entry.wire)) {
+        wires_close(job.entry.wire);
+    }
+}
+
+// What was found out about the driver on the way, whether the job succeeds or not.
+static void note_way(driver_t *entry) {
+    entry->repeats = (uint16_t)(entry->repeats + access_take_repeats());
+    uint8_t count;
+    if (access_count(&count)) {
+        entry->ifcnt = count;
+    }
+}
+
+static void commit(void) {
+    job.entry.dirty = 0;
+    note_way(&job.entry);
+    if (job.kind == JOB_SET_UP) {
+        job.entry.listens = job.verify;
+        job.entry.conditions = job.entry.told = 0;
+        job.driver = job.driver == DRIVERS_NONE ? (uint8_t)drivers_free() : job.driver;
+    }
+    drivers_put(job.driver, &job.entry);
+}
+
+void endings_succeed(void) {
+    if (job.kind == JOB_READ || job.kind == JOB_MONITOR) {
+        note_way(job_driver());
+    } else {
+        commit();
+    }
+    if (job.verify) {
+        monitor_note_answer(job_driver());
+    }
+    if (job.kind == JOB_MONITOR) {
+        monitor_note(job_driver(), phases_look(0), phases_look(1));
+    }
+    if (job.kind != JOB_ARM || !jobs_turn_to_next_armed()) {
+        endings_finish();
+    }
+}
+
+// ---- Failures -----------------------------------------------------------------------------------
+
+// Whoever disarms wants it for all drivers.
+static void give_driver_up(void) {
+    if (job.kind != JOB_ARM || job.on || !jobs_turn_to_next_armed()) {
+        endings_finish();
+    }
+}
+
+static void note_failure(driver_t *entry, uint8_t fault) {
+    note_way(entry);
+    entry->failures = (uint16_t)(entry->failures + (fault != ACCESS_CANCELLED));
+    entry->dirty |= job.touched;
+    monitor_note_failure(entry, fault, job.kind == JOB_MONITOR);
+    if (job.kind == JOB_ARM && job.touched != 0) {
+        entry->armed |= job.on; // perhaps; disarming will tell
+    }
+}
+
+static bool can_restore(uint8_t fault) {
+    return job_driver() != NULL && job.touched != 0 && job.kind != JOB_ARM && fault != ACCESS_LOST;
+}
+
+void endings_fail(uint8_t fault) {
+    if (job.outcome.fault == ACCESS_OK) {
+        job.outcome.fault = fault;
+    }
+    if (job_driver() != NULL) {
+        note_failure(job_driver(), fault);
+    }
+    job.outcome.partly = job.touched != 0 && job.kind != JOB_ARM && fault != ACCESS_LOST;
+    if (job.kind == JOB_SET_UP && job.phase == PHASES_IDENTIFY && fault == ACCESS_SILENT) {
+        job.next = 0;
+        phases_enter(PHASES_KNOCK);
+    } else if (can_restore(fault)) {
+        job.entry = *job_driver();
+        job.pending = job.touched;
+        phases_enter(PHASES_RESTORE);
+    } else {
+        give_driver_up();
+    }
+}
+
+void endings_fail_access(void) {
+    switch ((phases_t)job.phase) {
+    case PHASES_LOOK:
+        if (job.kind == JOB_READ) { // what was wanted is there
+            endings_succeed();
+            return;
+        }
+        break;
+    case PHASES_RESTORE:
+        endings_finish(); // what is left stays dirty
+        return;
+    case PHASES_KNOCK:
+        job.next++;
+        phases_enter(PHASES_KNOCK);
+        return;
+    default:
+        break;
+    }
+    if (job.phase == PHASES_WRITE && access_is_in_doubt()) {
+        job.touched |= (uint16_t)(1u << job.writing);
+    }
+    endings_fail((uint8_t)access_fault());
+}
