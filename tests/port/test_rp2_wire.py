@@ -133,6 +133,18 @@ def test_part_of_a_reply_and_a_missing_stop_bit(board: Emulator) -> None:
     assert wire.answered(8) == ("done", REPLY)
 
 
+def test_short_disturbances_are_no_start_bits(board: Emulator) -> None:
+    wire = Wire(board)
+    for n in range(8):
+        end_ns = wire.request()
+        for spike in range(3):
+            begin_ns = round(end_ns + wire.bits_ns(2 + 1.37 * spike + n / 8))
+            board.set_pin(TX, 0, at_ns=begin_ns)
+            board.set_pin(TX, None, at_ns=round(begin_ns + wire.bits_ns(0.25)))
+        wire.play(end_ns + wire.bits_ns(8), REPLY)
+        assert wire.result() == ("done", REPLY)
+
+
 def test_held_line_is_told_and_nothing_sent(board: Emulator) -> None:
     wire = Wire(board, echo=True)
     board.set_pin(RX, 0)

@@ -43,8 +43,8 @@ uint64_t host_clock_next_event_ns(void) {
     return tick_ns < other_ns ? tick_ns : other_ns;
 }
 
-// The input edge, the received byte, the bit of a wire or the alarm that is due at `now_ns`. True: something for the
-// main loop to see.
+// The input edge, the received byte, the bit of a wire or the alarm that is due at `now_ns`. True:
+// something for the main loop to see.
 static bool run_other(uint64_t now_ns) {
     clock_now_ns = now_ns;
     if (host_inputs_next_ns() <= now_ns) {

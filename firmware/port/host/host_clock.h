@@ -14,8 +14,8 @@ uint64_t host_clock_now_ns(void);
 // Moves the clock to an event that is about to happen. Not backwards.
 void host_clock_set_ns(uint64_t now_ns);
 
-// Time of the next tick, input event, received byte, bit of a wire or alarm; HOST_CLOCK_NEVER if nothing is to
-// come.
+// Time of the next tick, input event, received byte, bit of a wire or alarm; HOST_CLOCK_NEVER if
+// nothing is to come.
 uint64_t host_clock_next_event_ns(void);
 
 // Lets time pass up to and including `until_ns`, with all ticks, governor calls and input events

@@ -59,7 +59,8 @@ static unsigned level_after_step(bool of_tx) {
     return of_tx ? pio_sm_get_tx_fifo_level(pio0, 1) : pio_sm_get_rx_fifo_level(pio0, 1);
 }
 
-// out null, 8 (or in null, 8); wait 1 irq: eight bits at a time from (into) words of which 16 count.
+// out null, 8 (or in null, 8); wait 1 irq: eight bits at a time from (into) words of which 16
+// count.
 static void shift(const char *name, bool out) {
     uint16_t code[] = {out ? pio_encode_out(pio_null, 8) : pio_encode_in(pio_null, 8),
                        pio_encode_wait_irq(true, false, STEP_FLAG)};
