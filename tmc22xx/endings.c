@@ -29,6 +29,7 @@ void endings_finish(void) {
     }
     job.kind = JOB_NONE;
     if (job.opened && !drivers_on(job.entry.wire)) {
+        access_cut(job.entry.wire, false);
         wires_close(job.entry.wire);
     }
 }
@@ -42,7 +43,19 @@ static void note_way(driver_t *entry) {
     }
 }
 
+// What others have changed while the job was under way.
+static void take_over(const driver_t *now) {
+    job.entry.axis = now->axis;
+    job.entry.arm_by_user = now->arm_by_user;
+    job.entry.arm_tcoolthrs = now->arm_tcoolthrs;
+    job.entry.conditions = now->conditions;
+    job.entry.told = now->told;
+}
+
 static void commit(void) {
+    if (job_driver() != NULL) {
+        take_over(job_driver());
+    }
     job.entry.dirty = 0;
     note_way(&job.entry);
     if (job.kind == JOB_SET_UP) {
@@ -59,7 +72,7 @@ void endings_succeed(void) {
     } else {
         commit();
     }
-    if (job.verify) {
+    if (job.verify || job.kind == JOB_READ) {
         monitor_note_answer(job_driver());
     }
     if (job.kind == JOB_MONITOR) {

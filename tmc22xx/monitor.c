@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "hal/hal.h"
+#include "tmc22xx/jobs.h"
 #include "tmc22xx/outcome.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
@@ -97,7 +98,7 @@ static bool is_watched(unsigned driver) {
 }
 
 unsigned monitor_due(void) {
-    if (monitor.off || drivers_count() == 0) {
+    if (drivers_count() == 0 || monitor.off || !jobs_verifies()) {
         return DRIVERS_NONE;
     }
     uint64_t now_us = hal_time_us();

@@ -147,7 +147,6 @@ static void begin_raw(void) {
 static void end_raw(void) {
     if (job.raw_reg == TMC22XX_REG_GSTAT && TMC22XX_TAKE(job.raw_value, GSTAT, reset) != 0) {
         job_driver()->conditions &= (uint8_t)~DRIVERS_LOST;
-        job.entry.conditions = job_driver()->conditions;
     }
     end_writing();
 }
