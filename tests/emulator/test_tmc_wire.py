@@ -125,6 +125,42 @@ def test_frames_at_every_speed(board: Emulator, tmp_path: Path, baud: int) -> No
     assert_gaps(rows, groups, baud)
 
 
+# The examples of the reference, in their order: five frames and five, twice five, one each.
+EXAMPLES = [
+    "TMC22xx 16,2209,0,800,30,16",
+    "TMC22xx 16,2208,0,600,50,32,0.15,0",
+    "TMC22xx 16,2209,0,1000,25,16",
+    "TMC22xx 16,2209,1,1000,25,16",
+    "TMC22xx TCOOLTHRS 0,200",
+    "TMC22xx SGTTHRS 0,120",
+    "TMC22xx TCOOLTHRS 0,0",
+]
+# What stands nowhere else: the line for address 0 with 1000 mA.
+AT_1000_MA = [
+    "05 00 80 00 00 01 C0 F6",
+    "05 00 90 00 08 11 04",
+    "05 00 91 00 00 00 14 1F",
+    "05 00 EC 14 01 01 53",
+    "05 00 F0 CF 0D 0E 24 96",
+]
+
+
+def test_examples_one_after_the_other(board: Emulator, tmp_path: Path) -> None:
+    """A line may come again and with another chip; two drivers share the pin."""
+    accepted(board, "TMC22xx VERIFY 0")
+    for line in EXAMPLES:
+        accepted(board, line)
+    vcd = tmp_path / "examples.vcd"
+    board.write_vcd(vcd)
+    found = texts(frames(decode(vcd, TX, 115200), 115200))
+    expected = [frame for line in EXAMPLES for frame in GOLDEN.get(line, AT_1000_MA)]
+    assert len(found) == len(expected)
+    assert all(text.startswith(frame) for text, frame in zip(found, expected, strict=True))
+    accepted(board, "TMC22xx CLOSE")
+    board.set_pin(TX, 0)
+    assert board.level(TX) == 0  # it is free again
+
+
 @pytest.mark.parametrize("line", GOLDEN)
 def test_the_host_sends_the_same(tmp_path: Path, line: str) -> None:
     trace = tmp_path / "host.csv"
