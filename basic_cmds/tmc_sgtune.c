@@ -50,6 +50,13 @@ typedef struct {
     readings_t row, constant;         // of this row; at constant speed
 } tune_t;
 
+// To the last step.
+static bool moves(void) {
+    stepper_status_t status;
+    stepper_status(&status);
+    return status.jogging || status.stopping || status.moving;
+}
+
 // ---- Before anything moves ----------------------------------------------------------------------
 
 // The driver and its axis.
@@ -102,7 +109,12 @@ static err_t prepare(tune_t *tune, const basic_arg_t *args) {
     if (err == ERR_OK) {
         err = job_check_free();
     }
-    return err == ERR_OK ? rules_check(RULES_DO_JOG) : err;
+    if (err == ERR_OK) {
+        err = rules_check(RULES_DO_JOG);
+    }
+    stepper_status_t status;
+    stepper_status(&status);
+    return err == ERR_OK && status.jogging ? err_raise(ERR_JOGGING, NULL) : err;
 }
 
 // ---- While it moves -----------------------------------------------------------------------------
@@ -168,13 +180,6 @@ static err_t take_reading(tune_t *tune) {
         print_row(tune);
     }
     return err;
-}
-
-// To the last step.
-static bool moves(void) {
-    stepper_status_t status;
-    stepper_status(&status);
-    return status.jogging || status.stopping || status.moving;
 }
 
 // A driver that does not answer ends the jog as well; Ctrl-C has done so by itself.

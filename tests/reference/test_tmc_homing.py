@@ -206,6 +206,18 @@ def test_stopped_while_it_is_being_armed(stop: str, pause_ms: int, tmp_path: Pat
     assert at.report.full_steps() == pytest.approx((END + 240) / 16, abs=2)
 
 
+def test_ctrl_c_while_it_is_being_armed(tmp_path: Path) -> None:
+    """It is taken at the first wait, which is for the driver."""
+    lines = [f"{HOME_X}\r\x03", "PAUSE 500", KNOWN, HOME_X]
+    at = session(tmp_path, *READY, *lines[:2])
+    assert steps(at) == [0, 0]
+    assert at.report.register("TCOOLTHRS") == 0
+    (tmp_path / "2").mkdir()
+    at = session(tmp_path / "2", *READY, *lines)
+    assert at.errors() == []
+    assert at.report.full_steps() == pytest.approx((END + 240) / 16, abs=2)
+
+
 def test_a_wire_that_is_closed_while_it_is_armed(tmp_path: Path) -> None:
     """Nothing is left to be disarmed; homing goes on."""
     lines = ["STEPPER HOME RUN X", "PAUSE 200", "TMC22xx CLOSE", "PAUSE 3000", KNOWN]

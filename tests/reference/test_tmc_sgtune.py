@@ -188,6 +188,12 @@ def test_a_reading_that_is_disturbed_is_asked_again(tmp_path: Path) -> None:
         (["TMC22xx STEALTH X,,1000"], "StallGuard needs StealthChop"),
         (["STEPPER RECOVER"], "Not armed"),
         (["STEPPER POSITION HOME", "STEPPER GC G1 X20 F600"], "No jogging while motion is active"),
+        (["STEPPER JOG X,50,300", "PAUSE 50"], "A jog is under way"),
+        (
+            ["STEPPER HOME X,,,0", "TMC22xx SGTHRS X,99", "STEPPER HOME RUN X"],
+            "Homing is under way",
+        ),
+        (["STEPPER ESTOP", "TMC22xx AXIS 0,X"], "Not armed"),
         (["STEPPER CLOSE"], "axis not configured"),
         (["TMC22xx CLOSE"], "not initialized"),
     ],
