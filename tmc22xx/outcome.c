@@ -35,6 +35,11 @@ static err_t raise_silent(const outcome_t *outcome, const char *where) {
                          "%s; a driver answers at address %u: check MS1 and MS2, or the address",
                          where, address);
     }
+    if (outcome->others) {
+        return err_raise(ERR_TMC_SILENT,
+                         "%s; others on this wire answer: check its motor supply, MS1 and MS2",
+                         where);
+    }
     if (outcome->is_being_set && !outcome->partly) {
         return err_raise(ERR_TMC_SILENT,
                          "%s: check motor supply, wire to PDN_UART, 1 k resistor "

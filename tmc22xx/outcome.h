@@ -21,7 +21,8 @@ typedef struct {
     uint8_t fault; // access_fault_t or one of these; ACCESS_OK: it succeeded
     uint8_t tx_gpio, address, axis;
     uint8_t chip;      // that was expected, as in driver_t
-    uint8_t found;     // VERSION; or, if nobody answers, who does on this wire: addresses as bits
+    uint8_t found;     // VERSION; or, if nobody answers, addresses (bits) where a new driver does
+    bool others;       // known drivers on this wire answer
     bool partly;       // the driver's settings are not those before, nor all new ones
     bool is_being_set; // it is no driver yet, or one that is set up anew
 } outcome_t;

@@ -181,13 +181,10 @@ static void end_look(void) {
     }
 }
 
-// Asks the other addresses of the wire that no driver is known at.
+// Asks the other addresses of the wire.
 static void begin_knock(void) {
-    while (job.next < TMC22XX_ADDRESSES && (job.next == job.entry.address ||
-                                            drivers_at(job.entry.wire, job.next) != DRIVERS_NONE)) {
-        job.next++;
-    }
-    if (job.next == TMC22XX_ADDRESSES || job.cancelled) {
+    job.next = (uint8_t)(job.next + (job.next == job.entry.address));
+    if (job.next >= TMC22XX_ADDRESSES || job.cancelled) {
         endings_finish();
         return;
     }
@@ -196,7 +193,12 @@ static void begin_knock(void) {
 }
 
 static void end_knock(void) {
-    job.outcome.found |= (uint8_t)(1u << job.next++);
+    if (drivers_at(job.entry.wire, job.next) != DRIVERS_NONE) {
+        job.outcome.others = true;
+    } else {
+        job.outcome.found |= (uint8_t)(1u << job.next);
+    }
+    job.next++;
     phases_enter(PHASES_KNOCK);
 }
 

@@ -232,14 +232,27 @@ static void test_another_address_answers(void) {
                                   "address 2: check MS1 and MS2, or the address");
 }
 
-static void test_a_known_driver_at_another_address_says_nothing(void) {
+static void test_a_known_driver_answers(void) {
     line_add(WIRE, 1);
     set_up(WIRE, 1);
     tmc22xx_settings_t settings = at(WIRE, 0);
-    fails(tmc22xx_set_up(&settings), "No answer from address 0 on GP16 (pin 21): check motor "
-                                     "supply, wire to PDN_UART, 1 k resistor (without a way back: "
-                                     "TMC22xx VERIFY 0)");
+    fails(tmc22xx_set_up(&settings), "No answer from address 0 on GP16 (pin 21); others on this "
+                                     "wire answer: check its motor supply, MS1 and MS2");
     TEST_ASSERT_TRUE(line_is_open(WIRE)); // the other one still needs it
+    line_add(WIRE, 3);
+    fails(tmc22xx_set_up(&settings), "No answer from address 0 on GP16 (pin 21); a driver answers "
+                                     "at address 3: check MS1 and MS2, or the address");
+}
+
+// Whoever clears the flag of a reset takes the settings as they are.
+static void test_a_reset_that_the_user_has_mended(void) {
+    line_chip_t *chip = line_add(WIRE, 0);
+    unsigned driver = set_up(WIRE, 0);
+    line_power_up(chip);
+    TEST_ASSERT_EQUAL(ERR_TMC_LOST, end(tmc22xx_set_current(driver, 500, -1)));
+    TEST_ASSERT_EQUAL(ERR_TMC_LOST, end(tmc22xx_set_current(driver, 500, -1)));
+    succeeds(tmc22xx_begin_write(driver, TMC22XX_REG_GSTAT, 1));
+    succeeds(tmc22xx_set_current(driver, 500, -1));
 }
 
 static line_fault_t held_low(size_t frame) {
@@ -568,7 +581,8 @@ int main(void) {
     RUN_TEST(test_the_wrong_chip);
     RUN_TEST(test_nobody_answers);
     RUN_TEST(test_another_address_answers);
-    RUN_TEST(test_a_known_driver_at_another_address_says_nothing);
+    RUN_TEST(test_a_known_driver_answers);
+    RUN_TEST(test_a_reset_that_the_user_has_mended);
     RUN_TEST(test_a_line_that_is_held_low);
     RUN_TEST(test_garbled_answers);
     RUN_TEST(test_a_deaf_driver);
