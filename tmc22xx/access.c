@@ -4,8 +4,8 @@
 //   writing:   [IFCNT] write, IFCNT - counted? - else the write again
 //                             `- something else? GSTAT: a reset?
 //
-// From 255 the count goes on to 0, which may also be a reset at the wrong time. Whoever writes looks
-// for the flag of a reset when all is written, and finds it then.
+// From 255 the count goes on to 0, which may also be a reset at the wrong time. Whoever writes
+// looks for the flag of a reset when all is written, and finds it then.
 #include "tmc22xx/access.h"
 
 #include "base/base.h"

@@ -9,7 +9,7 @@
 
 #include "tmc22xx/drivers.h"
 
-// ---- Beginning one; none may be under way ---------------------------------------------------------
+// ---- Beginning one; none may be under way -------------------------------------------------------
 
 // Sets up the driver that `entry` describes completely. `driver`: its place in the table, or
 // DRIVERS_NONE. `opened`: the wire was opened for it, and closes again if it fails.

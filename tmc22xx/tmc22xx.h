@@ -119,8 +119,8 @@ err_t tmc22xx_begin_read(unsigned driver, const uint8_t *registers, size_t count
 
 // For homing: TCOOLTHRS of several drivers (bit n: driver n) is armed with the threshold kept for
 // it (by the user, else what the user wrote, else homing's), or is put back to what the user has
-// written. If a driver fails at arming, those behind it are left; disarming goes on with the others.
-// Has a result of its own, so that no statement can take it.
+// written. If a driver fails at arming, those behind it are left; disarming goes on with the
+// others. Has a result of its own, so that no statement can take it.
 err_t tmc22xx_begin_arm(uint32_t drivers, bool on);
 bool tmc22xx_arm_busy(void);
 err_t tmc22xx_arm_result(void); // raised anew
