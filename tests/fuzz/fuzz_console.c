@@ -9,6 +9,7 @@
 
 #include "fuzz_console_lines.h"
 #include "fuzz_corpus.h"
+#include "fuzz_drivers.h"
 #include "fuzz_machine.h"
 #include "fuzz_main_entry.h"
 #include "fuzz_program.h"
@@ -136,6 +137,9 @@ static void check_input(void) {
         if (error != NULL) {
             if (fuzz_session_plant_now(FUZZ_PLANT_REFUSED_MOVES)) {
                 stepper_dwell(1);
+            }
+            if (fuzz_session_plant_now(FUZZ_PLANT_DRIVER_WRITE)) {
+                fuzz_drivers_plant_write();
             }
             check_error_line(error);
             fuzz_machine_check_unchanged(&peer.before);
@@ -422,6 +426,7 @@ void fuzz_console_session(bool programs) {
     static char *arguments[] = {name, option, NULL};
     peer.programs = programs;
     fuzz_machine_watch();
+    fuzz_drivers_attach();
     atexit(on_exit_check);
     host_console_attach(&console_peer);
     start_waiting(STEP_WAIT); // for the banner and the first prompt

@@ -9,6 +9,7 @@
 #include "fuzz_corpus.h"
 #include "fuzz_gcode_lines.h"
 #include "fuzz_random.h"
+#include "tmc22xx/tmc22xx_registers.h"
 
 #define EXPRESSION_DEPTH 4
 
@@ -22,6 +23,10 @@ static const char *const setup_lines[] = {
     "STEPPER POSITION HOME",
     "STEPPER RUN",
     "STEPPER GC G90 G1 F3000 X5",
+    "TMC22xx GP21,2209,0,800,30,16",
+    "TMC22xx AXIS 0,X",
+    "TMC22xx WIRE GP22,GP19",
+    "TMC22xx GP22,2208,0,600,50,32",
 };
 
 static const char *const statements[] = {
@@ -135,6 +140,15 @@ static const char *const statements[] = {
     "FOR i=1 TO 20:STEPPER GCODE G1,X,i/10,F,#:NEXT",
     "? PEEK(STEPPER %)",
     "? PEEK(%)",
+    "TMC22xx GP21,2209,1,#,%,16:TMC22xx CURRENT X,700+RND*300",
+    "TMC22xx 21,2209,0,800,30,16:TMC22xx AXIS 0,X,GP21:TMC22xx STALL X,600,1",
+    "FOR i=1 TO 9:TMC22xx SGTHRS X,i:? PEEK(TMC X,SG);PEEK(TMC X,CS);:NEXT",
+    "&=PEEK(TMC X,TEMP)+PEEK(TMC 0,&H6F,GP21)+#",
+    "TMC22xx STATUS:PAUSE 1500",
+    "TMC22xx READ X,$",
+    "TMC22xx WRITE X,%,#",
+    "TMC22xx VERIFY 0:TMC22xx CURRENT X,500:TMC22xx VERIFY 1",
+    "TMC22xx CLOSE:TMC22xx GP21,2209,0,900,30,16",
     "? PEEK(STEPPER BUFFER),PEEK(STEPPER ACTIVE),PEEK(STEPPER X)",
     "#",
     "$",
@@ -302,6 +316,17 @@ static void add_in_range(fuzz_text_t *text, const basic_arg_spec_t *spec) {
     fuzz_text_add(text, spec->kind == BASIC_ARG_INTEGER ? "%.0f" : "%.10g", value);
 }
 
+// Of a motor driver.
+static void add_register(fuzz_text_t *text) {
+    unsigned index = fuzz_random_below((unsigned)tmc22xx_register_count);
+    const tmc22xx_register_t *reg = &tmc22xx_registers[index];
+    if (fuzz_random_percent(60)) {
+        fuzz_text_add(text, "%s", reg->name);
+    } else {
+        fuzz_text_add(text, "&H%X", reg->address);
+    }
+}
+
 static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
     if (fuzz_random_percent(8)) {
         add_expression(text, 2); // of the wrong kind, perhaps
@@ -325,10 +350,18 @@ static void add_argument(fuzz_text_t *text, const basic_arg_spec_t *spec) {
         add_choice(text, spec->choices);
         break;
     case BASIC_ARG_WORD:
+        if (spec->flags & BASIC_ARG_OR_NUMBER) {
+            add_register(text);
+            break;
+        }
         fuzz_text_add(text, "%s",
                       FUZZ_RANDOM_PICK(((const char *const[]){"G0", "G1", "X", "Y", "F", "P"})));
         break;
     case BASIC_ARG_PIN:
+        if (strcmp(spec->name, "tx_pin") == 0 && fuzz_random_percent(70)) {
+            fuzz_text_add(text, "GP%d", fuzz_random_between(21, 22)); // there are drivers
+            break;
+        }
         fuzz_text_add(text, fuzz_random_percent(60) ? "GP%d" : "%d", fuzz_random_between(0, 30));
         break;
     case BASIC_ARG_ROUTINE:

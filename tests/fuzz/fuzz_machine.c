@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "fuzz_drivers.h"
 #include "fuzz_session.h"
 #include "gcode/gcode.h"
 #include "gcode/gcode_job.h"
@@ -66,6 +67,7 @@ void fuzz_machine_look(fuzz_machine_t *now) {
         .changing = status.stopping || status.jogging || gcode_busy() || gcode_job_runs() ||
                     stepper_cycle() != STEPPER_CYCLE_NONE,
         .queued = status.executed + status.blocks - status.blocks_free,
+        .driver_writes = fuzz_drivers_writes(),
     };
     stepper_target(now->target);
     for (axis_id_t axis = 0; axis < AXIS_COUNT; axis++) {
@@ -77,6 +79,9 @@ void fuzz_machine_look(fuzz_machine_t *now) {
 void fuzz_machine_check_unchanged(const fuzz_machine_t *before) {
     fuzz_machine_t now;
     fuzz_machine_look(&now);
+    FUZZ_SESSION_CHECK(now.driver_writes == before->driver_writes,
+                       "a refused line wrote %u registers of motor drivers",
+                       (unsigned)(now.driver_writes - before->driver_writes));
     if (before->changing) {
         return;
     }

@@ -20,6 +20,7 @@ typedef struct {
     double target[AXIS_COUNT];
     double offset[AXIS_COUNT];
     bool configured[AXIS_COUNT];
+    uint32_t driver_writes; // registers that the motor drivers have taken
 } fuzz_machine_t;
 
 // Starts watching the pins: step pulses at least two ticks apart, none in the tick in which the

@@ -17,6 +17,7 @@ const char *const fuzz_session_plant_names[FUZZ_PLANT_COUNT] = {
     [FUZZ_PLANT_REFUSED_MOVES] = "refused-moves",
     [FUZZ_PLANT_LONG_ERROR] = "long-error",
     [FUZZ_PLANT_HANG] = "hang",
+    [FUZZ_PLANT_DRIVER_WRITE] = "driver-write",
 };
 
 fuzz_session_t *fuzz_session;

@@ -17,6 +17,7 @@ typedef enum {
     FUZZ_PLANT_REFUSED_MOVES, // a refused line leaves something in the queue
     FUZZ_PLANT_LONG_ERROR,    // an error message has two lines
     FUZZ_PLANT_HANG,          // an input never ends
+    FUZZ_PLANT_DRIVER_WRITE,  // a refused line writes a register of a motor driver
     FUZZ_PLANT_COUNT
 } fuzz_plant_t;
 
