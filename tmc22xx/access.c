@@ -53,7 +53,7 @@ static const uint8_t probes[] = {TMC22XX_REG_IOIN, TMC22XX_REG_GCONF, TMC22XX_RE
 // ---- Requests -----------------------------------------------------------------------------------
 
 static bool is_trusted(void) {
-    return ((unsigned)untrusted >> access.wire & 1u) == 0;
+    return (untrusted >> access.wire & 1) == 0;
 }
 
 static void trust(bool is) {

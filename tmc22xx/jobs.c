@@ -77,7 +77,7 @@ void jobs_look_after(unsigned index) {
 // A driver that cannot be asked whether it still knows its threshold of a stall is told it again.
 bool jobs_turn_to_next_armed(void) {
     for (unsigned i = 0; i < TMC22XX_DRIVERS; i++) {
-        if (((unsigned)job.armed >> i & 1u) == 0) {
+        if ((job.armed >> i & 1) == 0) {
             continue;
         }
         job.armed &= (uint8_t)~(1u << i);

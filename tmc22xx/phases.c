@@ -36,7 +36,7 @@ static uint8_t next_pending(void) {
         return KEPT_CHOPCONF;
     }
     uint8_t kept = 0;
-    while (((unsigned)job.pending >> kept & 1u) == 0) {
+    while ((job.pending >> kept & 1) == 0) {
         kept++;
     }
     return kept;
