@@ -115,6 +115,7 @@ export class Board {
         let place = this.events.length;
         while (place > 0 && this.events[place - 1].timeNanos > timeNanos) place -= 1;
         this.events.splice(place, 0, { timeNanos, action });
+        this.chip?.limit(timeNanos - this.baseNanos);
     }
 
     // ---- Serial ports --------------------------------------------------------------------------------

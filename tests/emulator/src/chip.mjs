@@ -137,8 +137,8 @@ export class Chip {
                 nvic.unchain();
                 continue; // something may have come meanwhile
             }
-            if (clock.nanosCounter >= limitNanos) return false;
-            if (S.sleeping || S.locked) this.sleep(limitNanos);
+            if (clock.nanosCounter >= S.limitNanos) return false;
+            if (S.sleeping || S.locked) this.sleep();
             else this.runInstructions();
         }
         return true;
@@ -155,9 +155,14 @@ export class Chip {
         this.advance(cycles);
     }
 
-    sleep(limitNanos) {
+    // Ends the present run sooner, for something that has come up in it.
+    limit(nanos) {
+        this.S.limitNanos = Math.min(this.S.limitNanos, nanos);
+    }
+
+    sleep() {
         const { S, clock } = this, alarm = clock.nextAlarm;
-        const until = alarm !== null && alarm.nanos < limitNanos ? alarm.nanos : limitNanos;
+        const until = alarm !== null && alarm.nanos < S.limitNanos ? alarm.nanos : S.limitNanos;
         const nanos = Math.max(0, until - clock.nanosCounter);
         this.advance(nanos / S.nanosPerCycle);
     }
