@@ -83,6 +83,7 @@ export class Tmc2209 {
         sent.edges.forEach(({ nanos, level }, index) => board.at(nanos, () => {
             if (index === 0) this.receiver.mute();
             if (this.powered) wire.answer(this, level);
+            if (!this.powered || !wire.plugged) this.note(entry, { fault: 'cut' });
         }));
         board.at(sent.endNanos, () => {
             wire.answer(this, null);
