@@ -25,7 +25,8 @@ MARK_GPIO = 22
 
 GSTAT, IFCNT = 0x01, 0x02
 SETUP_REGISTERS = (0x00, 0x10, 0x11, 0x6C, 0x70)
-REPLY_LATEST_BITS = 128
+REPLY_LATEST_BITS = 128 + 32
+"""Behind the request; the firmware waits for a little longer than the longest SENDDELAY."""
 SPOILS = ("silent", "deaf", "bad-crc", "cut")
 """Faults after which no whole answer of the exchange exists."""
 
@@ -165,7 +166,7 @@ def answered(entry: Entry) -> bool:
     if "value" not in entry or entry.get("fault") in SPOILS or "reply_ns" not in entry:
         return False
     end_ns = entry["time_ns"] + 10 * len(entry["bytes"]) * entry["bit_ns"]
-    return bool(entry["reply_ns"] - end_ns <= (REPLY_LATEST_BITS + 2) * entry["bit_ns"])
+    return bool(entry["reply_ns"] - end_ns <= REPLY_LATEST_BITS * entry["bit_ns"])
 
 
 def is_wrong(entry: Entry) -> bool:
@@ -213,14 +214,19 @@ class Oracle:
         faults = [entry for entry in entries if entry["kind"] == "fault"]
         frames = [entry for entry in entries if entry["kind"] != "fault"]
         assert all("error" not in entry for entry in frames), f"no datagram: {context}"
-        assert all(same_line(entry, driver) for entry in frames), f"another driver: {context}"
+        others = [entry for entry in frames if not same_line(entry, driver)]
+        # Who does not answer to a set-up is looked for at the other addresses of the wire.
+        looks = line.number >= 100 and line.error is not None
+        reads = all(e["tx"] == driver.pin and e["kind"] == "read" for e in others)
+        assert others == [] or (looks and reads), f"another driver: {context}"
         self.note(faults, frames)
         wrong = self.was_wrong(faults, frames)
         self.since_ns = end_ns
         self.follow(driver, line, faults, frames)
         if line.error is not None:
             self.count.errors += 1
-            assert wrong, f"nothing was wrong: {context}"
+            lost = "lost" in line.error and driver.name in self.lost
+            assert wrong or lost, f"nothing was wrong: {context}"
             if "partly" in line.error:
                 self.changed.add(driver.name)
             assert driver.name in self.changed or self.is_kept(driver), f"not as before: {context}"
@@ -288,11 +294,12 @@ class Oracle:
         return bool(faults) or was_reset(frames) or held or any(map(is_wrong, frames))
 
     def check_repeats(self, frames: list[Entry], wrong: bool, context: str) -> None:
-        """Without a fault each register is asked once; IFCNT around writes."""
+        """Without a fault nothing is asked twice, but IFCNT at writes, GSTAT before and after."""
         if wrong:
             return
         often = Counter((e["kind"], e["register"]) for e in frames if e["register"] != IFCNT)
-        assert all(count == 1 for count in often.values()), f"repeated for nothing: {context}"
+        often["read", GSTAT] -= 1
+        assert all(count <= 1 for count in often.values()), f"repeated for nothing: {context}"
 
     def check_kept(self, frames: list[Entry], behind: Entry, context: str) -> None:
         """After its last access the driver has said that it was not reset."""
