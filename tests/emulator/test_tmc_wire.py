@@ -86,7 +86,7 @@ def assert_gaps(rows: list[tuple[int, int]], groups: list[list[Byte]], baud: int
     for before, after in pairwise(groups):
         end = before[-1].end_ns + 1e9 / baud  # of the stop bit
         begin = max(time for time, level in rows if level == 0 and time < after[0].start_ns)
-        assert 199_000 <= begin - end <= 300_000 + 20e9 / baud
+        assert 199_900 <= begin - end <= 245_000 + 2e9 / baud
 
 
 @pytest.mark.parametrize("line", GOLDEN)

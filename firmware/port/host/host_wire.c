@@ -10,7 +10,7 @@
 #include "simulate_wire.h"
 
 #define BITS_A_BYTE 10u // with start and stop bit
-#define TAKE_BITS 2u    // the line is driven high so long before the first start bit
+#define TAKE_BITS 1u    // the line is driven high so long before the first start bit
 #define STOP_BIT 8u     // behind the start bit
 
 typedef enum {

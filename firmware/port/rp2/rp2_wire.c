@@ -17,6 +17,7 @@
 #define CYCLES_A_BIT 16u
 #define BITS_A_BYTE 10u // with start and stop bit
 #define REPLY_BITS_A_BYTE 9u
+#define TAKE_BITS 1u // what the program does before the first start bit takes a little less
 #define STOP_BIT (1u << 8)
 #define WORDS_MAX 4u // of a FIFO
 
@@ -112,7 +113,7 @@ static void fill(const uint8_t *send, size_t size, size_t reply_size) {
 
 // When what is left of the exchange may be over and when it has to be, from now on.
 static void set_times(uint64_t now_us, uint32_t idle_bits) {
-    uint32_t send_bits = idle_bits + 2u + BITS_A_BYTE * exchange.send_size;
+    uint32_t send_bits = idle_bits + TAKE_BITS + BITS_A_BYTE * exchange.send_size;
     uint32_t reply_bits = BITS_A_BYTE * exchange.reply_size;
     uint32_t ready_bits = send_bits;
     if (reply_bits > 0) {
