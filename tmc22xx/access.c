@@ -43,7 +43,7 @@ static struct {
     uint16_t repeats;
 } access;
 
-static uint8_t untrusted; // wires, as bits
+static uint32_t untrusted; // wires, as bits
 static uint8_t next_probe;
 
 // Can be read from both chips, any number of times.
@@ -57,8 +57,8 @@ static bool is_trusted(void) {
 }
 
 static void trust(bool is) {
-    uint8_t bit = (uint8_t)(1u << access.wire);
-    untrusted = is ? untrusted & (uint8_t)~bit : untrusted | bit;
+    uint32_t bit = 1u << access.wire;
+    untrusted = is ? untrusted & ~bit : untrusted | bit;
 }
 
 static uint8_t take_probe(void) {
@@ -310,5 +310,5 @@ void access_cut(unsigned wire, bool under_way) {
     if (under_way) {
         exchange_abort();
     }
-    untrusted &= (uint8_t)~(1u << wire); // when it opens again it has been quiet
+    untrusted &= ~(1u << wire); // when it opens again it has been quiet
 }

@@ -77,7 +77,7 @@ void jobs_look_after(unsigned index) {
 // A driver that cannot be asked whether it still knows its threshold of a stall is told it again.
 bool jobs_turn_to_next_armed(void) {
     for (unsigned i = 0; i < TMC22XX_DRIVERS; i++) {
-        if ((job.armed >> i & 1) == 0) {
+        if ((job.armed & 1u << i) == 0) {
             continue;
         }
         job.armed &= (uint8_t)~(1u << i);
@@ -102,7 +102,7 @@ void jobs_arm(uint32_t drivers, bool on) {
     job.on = on;
     for (unsigned i = 0; i < TMC22XX_DRIVERS; i++) {
         const driver_t *entry = drivers_get(i);
-        if ((drivers >> i & 1u) != 0 && entry != NULL && entry->chip == TMC22XX_2209) {
+        if ((drivers & 1u << i) != 0 && entry != NULL && entry->chip == TMC22XX_2209) {
             job.armed |= (uint8_t)(1u << i);
         }
     }

@@ -14,6 +14,7 @@
 
 static struct {
     bool off;
+    bool news;    // there may be something to tell
     uint8_t next; // driver
     uint64_t due_us;
 } monitor;
@@ -38,6 +39,12 @@ static const struct {
 
 void monitor_note_answer(driver_t *entry) {
     entry->conditions &= (uint8_t)~DRIVERS_SILENT;
+    monitor.news = true;
+}
+
+void monitor_note_reset(driver_t *entry) {
+    entry->conditions |= DRIVERS_LOST;
+    monitor.news = true;
 }
 
 // A statement that failed has told the user why.
@@ -49,6 +56,7 @@ void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor) {
         condition = DRIVERS_SILENT;
     }
     entry->conditions |= condition;
+    monitor.news = true;
     if (!is_monitor) {
         entry->told |= condition;
     }
@@ -88,6 +96,7 @@ void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status) {
         entry->told |= DRIVERS_ERROR; // with its reason
     }
     forget_told(entry);
+    monitor.news = true;
 }
 
 // ---- Whose turn it is ---------------------------------------------------------------------------
@@ -141,7 +150,7 @@ static const char *take_news(driver_t *entry) {
 }
 
 bool tmc22xx_next_event(char *text, size_t size) {
-    for (unsigned i = 0; drivers_count() != 0 && i < TMC22XX_DRIVERS; i++) {
+    for (unsigned i = 0; monitor.news && i < TMC22XX_DRIVERS; i++) {
         driver_t *entry = drivers_get(i);
         const char *news = entry != NULL ? take_news(entry) : NULL;
         if (news != NULL) {
@@ -151,5 +160,6 @@ bool tmc22xx_next_event(char *text, size_t size) {
             return true;
         }
     }
+    monitor.news = false;
     return false;
 }

@@ -8,8 +8,9 @@
 
 #include "tmc22xx/drivers.h"
 
-// A driver has answered; it has not; and what its registers said.
+// A driver has answered; was found to have been reset; has failed; and what its registers said.
 void monitor_note_answer(driver_t *entry);
+void monitor_note_reset(driver_t *entry);
 void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor);
 void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status);
 

@@ -28,7 +28,7 @@ size_t outcome_name(char *text, size_t size, const driver_t *entry) {
 static err_t raise_silent(const outcome_t *outcome, const char *where) {
     if (outcome->found != 0) {
         unsigned address = 0;
-        while ((outcome->found >> address & 1u) == 0) {
+        while ((outcome->found & 1u << address) == 0) {
             address++;
         }
         return err_raise(ERR_TMC_SILENT,

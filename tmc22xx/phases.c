@@ -4,6 +4,7 @@
 #include "tmc22xx/access.h"
 #include "tmc22xx/endings.h"
 #include "tmc22xx/job.h"
+#include "tmc22xx/monitor.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
 #define SEND_DELAY 2 // of an answer: 3 x 8 bit times, for other drivers on the wire to notice
@@ -32,11 +33,11 @@ static bool range_goes_first(void) {
 }
 
 static uint8_t next_pending(void) {
-    if ((job.pending >> KEPT_CHOPCONF & 1u) != 0 && range_goes_first()) {
+    if ((job.pending & 1u << KEPT_CHOPCONF) != 0 && range_goes_first()) {
         return KEPT_CHOPCONF;
     }
     uint8_t kept = 0;
-    while ((job.pending >> kept & 1) == 0) {
+    while ((job.pending & 1u << kept) == 0) {
         kept++;
     }
     return kept;
@@ -172,7 +173,7 @@ static void end_look(void) {
     bool reset = job.kind == JOB_SET_UP ? TMC22XX_TAKE(access_value(), GSTAT, reset) != 0
                                         : was_reset(access_value());
     if (reset && job.kind == JOB_READ) {
-        job_driver()->conditions |= DRIVERS_LOST; // told as the monitor's
+        monitor_note_reset(job_driver());
     }
     if (reset && job.kind != JOB_READ) {
         endings_fail(ACCESS_LOST);
