@@ -187,7 +187,15 @@ err_t tmc_close(const basic_arg_t *args, size_t count) {
 
 // ---- Life cycle ---------------------------------------------------------------------------------
 
+// What is on a wire comes to its end first: a driver that has heard half of a frame could take the
+// first one of the new program for the rest of it.
 void tmc_new(void) {
+    while (tmc22xx_busy()) {
+        if (!basic_wait(tmc22xx_wake_us())) { // Ctrl-C asks for nothing else
+            hal_idle(tmc22xx_wake_us());
+            tmc22xx_background();
+        }
+    }
     if (in_use) {
         tmc22xx_close(PINS_NONE); // no error for us if there is no wire
         in_use = false;

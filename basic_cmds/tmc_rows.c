@@ -64,8 +64,8 @@ static const basic_arg_spec_t tcoolthrs_args[] = {
 
 static const basic_arg_spec_t stall_args[] = {
     DRIVER_ARG,
-    {"feed", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = 10000000, .unit = "mm/min or deg/min",
-     .help = "speed of its axis from which on stalls are told"},
+    {"feed", BASIC_ARG_NUMBER, .min = 0, .max = 10000000, .unit = "mm/min or deg/min",
+     .help = "speed of its axis from which on stalls are told; 0: homing chooses by itself"},
     {"always", BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1,
      .help = "1: at once and for good; 0: only while homing, which switches it on and off"},
     WIRE_ARG,

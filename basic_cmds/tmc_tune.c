@@ -48,7 +48,7 @@ static unsigned axis_of(unsigned driver) {
     return tmc22xx_info(driver, &info) ? info.axis : TMC22XX_NO_AXIS;
 }
 
-// TSTEP at a feed of the driver's axis. Errors: no axis that is configured; faster than it can go.
+// TSTEP at a feed of the driver's axis, 0 for none. Errors: no axis that is configured; faster than it can go.
 static err_t tstep_at(unsigned driver, double feed, uint32_t *tstep) {
     unsigned axis = axis_of(driver);
     if (axis == TMC22XX_NO_AXIS) {
@@ -66,7 +66,8 @@ static err_t tstep_at(unsigned driver, double feed, uint32_t *tstep) {
                          feed, config.max_velocity, STEPPER_AXIS_LETTERS[axis]);
     }
     double steps_per_s = feed / 60.0 * config.steps_per_unit;
-    *tstep = tmc22xx_tstep(steps_per_s, tmc22xx_driver(driver)->microsteps);
+    unsigned microsteps = tmc22xx_driver(driver)->microsteps;
+    *tstep = feed > 0.0 ? tmc22xx_tstep(steps_per_s, microsteps) : 0;
     return ERR_OK;
 }
 
@@ -91,6 +92,11 @@ static void tell_stall(unsigned driver, uint32_t tstep, bool always) {
     tmc22xx_info_t info;
     if (settings == NULL || !tmc22xx_info(driver, &info)) {
         return; // closed meanwhile
+    }
+    if (tstep == 0) {
+        basic_printf(always ? "TCOOLTHRS 0: no stalls are told\n"
+                            : "Homing chooses TCOOLTHRS by itself\n");
+        return;
     }
     basic_printf("TCOOLTHRS %u%s: stalls are told from ", (unsigned)tstep,
                  always ? "" : " while homing");

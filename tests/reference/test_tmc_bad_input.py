@@ -83,7 +83,7 @@ BAD = {
     "TMC22xx TCOOLTHRS 0, 100, GP20": "2208",
     "TMC22xx STALL 0, 600, , GP20": "2208",
     "TMC22xx COOLSTEP 0, 5, 2, , , , GP20": "2208",
-    "TMC22xx STALL X, 0": "feed: 0 is invalid (valid is above 0 to",
+    "TMC22xx STALL X, -1": "feed: -1 is invalid (valid is 0 to 10000000)",
     "TMC22xx STALL X, 6001": "feed: 6001 is invalid (valid is above 0 to 6000, the max_vel of X)",
     "TMC22xx STALL X, 600, 2": "always: 2 is invalid (valid is 0 to 1)",
     "TMC22xx STEALTH X, 5, 600": "threshold, feed: only one of them can be given",

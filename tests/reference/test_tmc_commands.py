@@ -77,6 +77,39 @@ def test_stall_computes_the_threshold(tmp_path: Path) -> None:
     assert last_write(session, TCOOLTHRS) == 625
 
 
+def test_stall_can_be_taken_back(tmp_path: Path) -> None:
+    """What homing was to use, and what was written for good."""
+    lines = ["TMC22xx STALL X, 900", "TMC22xx STALL X, 0", "TMC22xx STATUS X"]
+    session = driven(tmp_path, *READY, SET_UP, TIE, *lines)
+    assert session.answers[-2] == "Homing chooses TCOOLTHRS by itself"
+    assert "for homing" not in session.last
+    lines = ["TMC22xx STALL X, 900, 1", "TMC22xx STALL X, 0, 1"]
+    session = driven(tmp_path, *READY, SET_UP, TIE, *lines)
+    assert session.last == "TCOOLTHRS 0: no stalls are told"
+    assert last_write(session, TCOOLTHRS) == 0
+
+
+def test_a_driver_that_is_set_up_again_stays_tied(tmp_path: Path) -> None:
+    """And keeps what was said about it."""
+    session = driven(tmp_path, SET_UP, TIE, "TMC22xx SGTHRS X, 60", SET_UP, "TMC22xx STATUS X")
+    assert session.errors() == []
+    assert "SGTHRS 60" in session.last
+
+
+def test_eight_drivers_and_no_more(tmp_path: Path) -> None:
+    """On two wires of four; the ninth is an error, and its pin stays free."""
+    lines = [f"TMC22xx GP{19 + n % 2}, 2209, {n // 2}, 800, 30, 16" for n in range(8)]
+    drivers = [f"tmc2209 tx=GP{19 + n % 2} address={n // 2}" for n in range(8)]
+    more = "TMC22xx GP22, 2209, 0, 800, 30, 16"
+    blind = "TMC22xx VERIFY 0"
+    session = driven(
+        tmp_path, *lines, "TMC22xx STATUS", blind, more, "SETPIN GP22, DIN", drivers=drivers
+    )
+    assert session.answers[8].count("TMC2209, address") == 8
+    assert len(session.errors()) == 1
+    assert "8" in session.errors()[0]
+
+
 def test_stall_says_what_keeps_it_from_working(tmp_path: Path) -> None:
     """No sensitivity, no StealthChop, StealthChop that ends earlier."""
     session = driven(tmp_path, *READY, SET_UP, TIE, "TMC22xx STALL X, 900")
@@ -358,6 +391,20 @@ def test_a_new_program_finds_all_wires_free(ending: str, tmp_path: Path) -> None
     assert session.errors() == []
     assert session.answers[-2] == "TMC22xx not initialized; verification is ON, monitor is ON"
     assert len(writes(session.edges, TX)) == len(writes(driven(tmp_path, SET_UP).edges, TX))
+
+
+@pytest.mark.parametrize("ending", ["RUN", "NEW", "TMC22xx CLOSE"])
+def test_no_frame_is_cut_off(ending: str, tmp_path: Path) -> None:
+    """Whenever the end comes, while the monitor asks: all frames are whole."""
+    asked = set()
+    for tenths in (0, *range(3, 8), *range(22, 27)):
+        wait = f"TIMER = 0 : DO : LOOP UNTIL TIMER >= {1000 + tenths / 10}"
+        session = driven(tmp_path, "AUTOSAVE\rx = 1\r\x1a", f"{SET_UP} : {wait} : {ending}")
+        assert session.errors() == []
+        sent = frames(session.edges, TX)
+        assert {len(frame.data) for frame in sent} == {4, 8}
+        asked.add(len([frame for frame in sent if frame.start_ns > 1e9]))
+    assert len(asked) > 1  # some came in the middle
 
 
 @pytest.mark.parametrize(
