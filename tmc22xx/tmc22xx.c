@@ -139,8 +139,32 @@ static err_t no_register(unsigned chip, const char *name) {
                      name);
 }
 
-// Whether the value fits, and the chip has the register and lets it be written.
-static err_t check_write(const driver_t *entry, uint8_t address, uint32_t value) {
+// All bits of a register up to its highest field; *is_signed: they are one number with a sign.
+static uint32_t width_mask(const tmc22xx_register_t *reg, unsigned chip, bool *is_signed) {
+    unsigned bits = 0;
+    for (unsigned i = 0; i < reg->field_count; i++) {
+        const tmc22xx_field_t *field = &reg->fields[i];
+        unsigned end = field->low_bit + field->bits;
+        bits = (field->chips & chip) != 0 && end > bits ? end : bits;
+    }
+    *is_signed = reg->fields[0].is_signed && reg->fields[0].bits == bits;
+    return 0xFFFFFFFFu >> (32 - bits);
+}
+
+// A negative number may come with all its upper bits set.
+static err_t check_value(const tmc22xx_register_t *reg, unsigned chip, uint32_t *value) {
+    bool is_signed;
+    uint32_t mask = width_mask(reg, chip, &is_signed);
+    bool is_negative = is_signed && (*value | mask >> 1) == 0xFFFFFFFFu;
+    if (*value > mask && !is_negative) {
+        return err_raise(ERR_TMC_REGISTER, "%s takes values up to 0x%X", reg->name, (unsigned)mask);
+    }
+    *value &= mask;
+    return ERR_OK;
+}
+
+// Whether the chip has the register, lets it be written, and the value fits.
+static err_t check_write(const driver_t *entry, uint8_t address, uint32_t *value) {
     const tmc22xx_register_t *reg = tmc22xx_register_at(address);
     if (reg == NULL) {
         return err_raise(ERR_TMC_REGISTER, "There is no register 0x%02X", address);
@@ -154,14 +178,13 @@ static err_t check_write(const driver_t *entry, uint8_t address, uint32_t value)
     if (address == TMC22XX_REG_OTP_PROG) {
         return err_raise(ERR_TMC_REGISTER, "OTP_PROG cannot be undone and is not written");
     }
-    (void)value;
-    return ERR_OK;
+    return check_value(reg, entry->chip, value);
 }
 
 err_t tmc22xx_begin_write(unsigned driver, uint8_t reg, uint32_t value) {
     driver_t entry;
     err_t err = copy(driver, &entry);
-    err = err != ERR_OK ? err : check_write(&entry, reg, value);
+    err = err != ERR_OK ? err : check_write(&entry, reg, &value);
     if (err != ERR_OK) {
         return err;
     }

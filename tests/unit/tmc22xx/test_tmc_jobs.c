@@ -363,6 +363,11 @@ static void test_what_cannot_be_asked_for(void) {
     refused(tmc22xx_begin_write(driver, TMC22XX_REG_OTP_PROG, 0xBD00),
             "OTP_PROG cannot be undone and is not written");
     refused(tmc22xx_begin_write(driver, 0x7E, 0), "There is no register 0x7E");
+    refused(tmc22xx_begin_write(driver, TMC22XX_REG_SGTHRS, 256), "SGTHRS takes values up to 0xFF");
+    refused(tmc22xx_begin_write(driver, TMC22XX_REG_VACTUAL, 0xFF7FFFFF),
+            "VACTUAL takes values up to 0xFFFFFF");
+    succeeds(tmc22xx_begin_write(driver, TMC22XX_REG_VACTUAL, (uint32_t)-0x800000));
+    TEST_ASSERT_EQUAL_HEX32(0x800000, line.chips[0].registers[TMC22XX_REG_VACTUAL]);
     const uint8_t registers[] = {TMC22XX_REG_SGTHRS};
     refused(tmc22xx_begin_read(driver, registers, 1), "SGTHRS can only be written");
     refused(tmc22xx_set_current(driver, 0, 0),
