@@ -68,8 +68,8 @@ const basic_arg_spec_t setpin_pwm_args[] = {
 // The words in the order of BASIC_PIN_NUMBERS_GPIO and its companions.
 const basic_arg_spec_t setpin_numbers_args[] = {
     {"rule", BASIC_ARG_CHOICE, .choices = "GPIO|BOARD|MIXED",
-     .help =
-         "GPIO numbers, or numbers on the board; MIXED: GPIO in STEPPER, BOARD in SETPIN and PIN"},
+     .help = "GPIO numbers, or numbers on the board; MIXED: GPIO in STEPPER and "
+             "TMC22xx, BOARD in SETPIN and PIN"},
 };
 const basic_arg_spec_t setpin_vcc_args[] = {
     {"volts", BASIC_ARG_NUMBER, .min = 1.8, .max = 3.6, .unit = "V",
