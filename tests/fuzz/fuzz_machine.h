@@ -21,6 +21,7 @@ typedef struct {
     double offset[AXIS_COUNT];
     bool configured[AXIS_COUNT];
     uint32_t driver_writes; // registers that the motor drivers have taken
+    bool arming;            // homing may write to them as well, whatever is typed
 } fuzz_machine_t;
 
 // Starts watching the pins: step pulses at least two ticks apart, none in the tick in which the
