@@ -97,7 +97,7 @@ static void note_failure(driver_t *entry, uint8_t fault) {
     entry->failures = (uint16_t)(entry->failures + (fault != ACCESS_CANCELLED));
     entry->dirty |= job.touched;
     monitor_note_failure(entry, fault, job.kind == JOB_MONITOR);
-    if (job.kind == JOB_ARM && job.touched != 0) {
+    if (job.kind == JOB_ARM && (job.touched & 1u << KEPT_TCOOLTHRS) != 0) {
         entry->armed |= job.on; // perhaps; disarming will tell
     }
 }
