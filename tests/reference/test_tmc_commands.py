@@ -426,6 +426,30 @@ def test_an_error_ends_the_program_and_leaves_the_drivers(tmp_path: Path) -> Non
     assert session.number() == 0x1C0
 
 
+@pytest.mark.parametrize(
+    ("before", "end_mm"),
+    [("OPTION ERROR STOP", 0), ("OPTION ERROR RUN", 100), ("ON ERROR IGNORE", 100)],
+)
+def test_a_driver_that_fails_is_an_error_like_others(
+    before: str, end_mm: float, tmp_path: Path
+) -> None:
+    """It ends the program, and motion as OPTION ERROR says, unless ON ERROR has it skipped."""
+    text = "\n".join(
+        [before, *READY, SET_UP, TIE, "STEPPER GC G1 X100 F3000", "PAUSE 1200",
+         "TMC22xx CURRENT X, 900", "PRINT MM.ERRNO <> 0", WAIT, "PRINT 3"]
+    )  # fmt: skip
+    drivers = ["tmc2209 tx=GP21 address=0 fault=unplugged@1000"]
+    skipped = before.startswith("ON")
+    session = program(tmp_path, text, drivers=drivers, code=0 if skipped else 1)
+    assert ("No answer from address 0 on GP21 (pin 27)" in session.last) != skipped
+    assert ("motion stops, what was queued is dropped" in session.last) == (end_mm == 0)
+    assert session.last.endswith(" 1\n 3") == skipped
+    if end_mm > 0:
+        assert session.end("X") == end_mm
+    else:
+        assert 50 < session.end("X") < 75
+
+
 # ---- Waiting -------------------------------------------------------------------------------------
 
 
