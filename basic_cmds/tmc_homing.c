@@ -28,23 +28,42 @@ static bool finds_stalls(const tmc22xx_settings_t *settings, const tmc22xx_info_
     return settings->chip == 2209 && settings->stealth && info->sgthrs > 0;
 }
 
+static uint32_t tstep_at(axis_id_t axis, double feed, unsigned microsteps) {
+    stepper_axis_t config;
+    stepper_axis_config(axis, &config);
+    return tmc22xx_tstep(feed / 60.0 * config.steps_per_unit, microsteps);
+}
+
+static err_t raise(const tmc22xx_info_t *info, const char *needs) {
+    char name = STEPPER_AXIS_LETTERS[info->axis];
+    return err_raise(ERR_TMC_NOT_ARMED, "%c needs %s (a switch needs a latch feed: STEPPER HOME)",
+                     name, needs);
+}
+
+// The speed from which on the user wants stalls to be told is above that of homing.
+static err_t raise_too_slow(const tmc22xx_info_t *info, double feed) {
+    return err_raise(ERR_TMC_NOT_ARMED,
+                     "%c would not work at %.6g mm/min: TCOOLTHRS is for more (TMC22xx STALL)",
+                     STEPPER_AXIS_LETTERS[info->axis], feed);
+}
+
 static err_t check_driver(unsigned driver, const tmc22xx_info_t *info) {
     const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
-    char name = STEPPER_AXIS_LETTERS[info->axis];
-    bool needed = settings->chip == 2209 && stepper_home_halts((axis_id_t)info->axis);
-    if (!needed || finds_stalls(settings, info)) {
+    axis_id_t axis = (axis_id_t)info->axis;
+    if (settings->chip != 2209 || !stepper_home_halts(axis)) {
         return ERR_OK;
     }
-    if (settings->stealth) {
-        return err_raise(ERR_TMC_NOT_ARMED,
-                         "%c needs TMC22xx SGTHRS %c,value (or STEPPER HOME %c,,,latch if that is "
-                         "a switch)",
-                         name, name, name);
+    stepper_home_t home;
+    stepper_home_settings(axis, &home);
+    uint32_t tstep = tstep_at(axis, home.seek, settings->microsteps);
+    uint32_t wanted = info->kept_tcoolthrs != 0 ? info->kept_tcoolthrs : info->tcoolthrs;
+    if (!settings->stealth || tstep <= info->tpwmthrs) {
+        return raise(info, "StealthChop");
     }
-    return err_raise(ERR_TMC_NOT_ARMED,
-                     "%c needs StealthChop: TMC22xx STEALTH (or STEPPER HOME %c,,,latch if that "
-                     "is a switch)",
-                     name, name);
+    if (info->sgthrs == 0) {
+        return raise(info, "TMC22xx SGTHRS");
+    }
+    return wanted != 0 && tstep > wanted ? raise_too_slow(info, home.seek) : ERR_OK;
 }
 
 // An axis that would run against its end without noticing is refused before anything moves.
@@ -59,12 +78,12 @@ static err_t check(uint32_t axes) {
     return err;
 }
 
-static uint32_t seek_tstep(axis_id_t axis, unsigned microsteps) {
-    stepper_axis_t config;
+// Of the first approach: SG_RESULT is smaller at a lower speed, so what fits the seek feed would
+// take a slow second one for a stall right away.
+static uint32_t homing_tstep(axis_id_t axis, unsigned microsteps) {
     stepper_home_t home;
-    stepper_axis_config(axis, &config);
     stepper_home_settings(axis, &home);
-    return tmc22xx_tstep(FEED_PART * home.seek / 60.0 * config.steps_per_unit, microsteps);
+    return tstep_at(axis, FEED_PART * home.seek, microsteps);
 }
 
 // The drivers to be armed, each with a threshold.
@@ -74,7 +93,7 @@ static uint32_t choose(uint32_t axes) {
         tmc22xx_info_t info;
         const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
         if (is_of(driver, axes, &info) && finds_stalls(settings, &info)) {
-            uint32_t tstep = seek_tstep((axis_id_t)info.axis, settings->microsteps);
+            uint32_t tstep = homing_tstep((axis_id_t)info.axis, settings->microsteps);
             tmc22xx_keep_threshold(driver, tstep, false);
             drivers |= 1u << driver;
         }

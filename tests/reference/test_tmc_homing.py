@@ -122,8 +122,17 @@ def test_blind_drivers_are_armed_as_well(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        ([], "StallGuard of X needs TMC22xx SGTHRS X,value"),
+        ([], "StallGuard of X needs TMC22xx SGTHRS"),
         (["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,OFF"], "StallGuard of X needs StealthChop"),
+        (["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,,2400"], "StallGuard of X needs StealthChop"),
+        (
+            ["TMC22xx SGTHRS X,120", "TMC22xx STALL X,3600"],
+            "StallGuard of X would not work at 3000",
+        ),
+        (
+            ["TMC22xx SGTHRS X,120", "TMC22xx TCOOLTHRS X,9"],
+            "StallGuard of X would not work at 3000",
+        ),
     ],
 )
 @pytest.mark.parametrize("home", ["STEPPER GC G28", HOME_X, "STEPPER HOME RUN X"])
@@ -146,6 +155,14 @@ def test_a_switch_needs_no_stallguard(tmp_path: Path) -> None:
     at = session(tmp_path, *TIED, "STEPPER HOME X,,,100", HOME_X, machine=machine)
     assert at.errors() == []
     assert armed(at) == []
+
+
+def test_a_slow_second_approach_fails(tmp_path: Path) -> None:
+    """A latch feed was chosen although no stall is noticed there; a wrong place would be worse."""
+    at = session(tmp_path, *READY, "STEPPER HOME X,,3000,300", HOME_X, "PAUSE 50", KNOWN)
+    assert "while approaching slowly" in at.errors()[0]
+    assert at.number() == 0
+    assert at.report.register("TCOOLTHRS") == 0
 
 
 def test_a_switch_that_is_active_low_needs_none(tmp_path: Path) -> None:
