@@ -73,6 +73,15 @@ uint64_t line_run(void) {
     return line.time_us - begin_us;
 }
 
+void line_run_until(uint64_t time_us) {
+    while (tmc22xx_busy() && line.time_us < time_us) {
+        uint64_t wake_us = tmc22xx_wake_us();
+        wake_us = wake_us > line.time_us ? wake_us : line.time_us;
+        line.time_us = wake_us < time_us ? wake_us : time_us;
+        tmc22xx_background();
+    }
+}
+
 // ---- Chips --------------------------------------------------------------------------------------
 
 // A second implementation, bit by bit as the datasheet draws it.

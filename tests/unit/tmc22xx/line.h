@@ -78,6 +78,9 @@ bool line_is_open(uint8_t tx_gpio);
 // Lets the job under way end, however long it takes; returns how long in microseconds.
 uint64_t line_run(void);
 
+// The same until this time at the latest.
+void line_run_until(uint64_t time_us);
+
 const char *line_fault_name(line_fault_t fault);
 
 #endif

@@ -458,12 +458,7 @@ static void test_a_wire_that_closes_under_a_job(void) {
         line_add(OTHER_WIRE, 0);
         set_up(OTHER_WIRE, 0);
         TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_set_up(&usual));
-        uint64_t end_us = line.time_us + after_us;
-        while (tmc22xx_busy() && line.time_us < end_us) {
-            uint64_t wake_us = tmc22xx_wake_us();
-            line.time_us = wake_us < end_us ? wake_us : end_us;
-            tmc22xx_background();
-        }
+        line_run_until(line.time_us + after_us);
         bool under_way = tmc22xx_busy();
         TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_close(WIRE));
         TEST_ASSERT_FALSE(tmc22xx_busy());
@@ -556,12 +551,7 @@ static void test_giving_up_puts_back_what_was_written(void) {
         line_chip_t *chip = line_add(WIRE, 0);
         unsigned driver = set_up(WIRE, 0);
         TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_set_current(driver, 1000, -1));
-        uint64_t end_us = line.time_us + after_us;
-        while (tmc22xx_busy() && line.time_us < end_us) {
-            uint64_t wake_us = tmc22xx_wake_us();
-            line.time_us = wake_us < end_us ? wake_us : end_us;
-            tmc22xx_background();
-        }
+        line_run_until(line.time_us + after_us);
         bool under_way = tmc22xx_busy();
         tmc22xx_give_up();
         line_run();
