@@ -62,7 +62,8 @@ err_t tmc_check_still(const char *what);
 // RUN and NEW: all wires are released, as after power-up. Nothing is written to the drivers.
 void tmc_new(void);
 
-// For the background hook, once a statement has called tmc_await_turn(): takes jobs on and tells what the monitor has found.
+// For the background hook: takes jobs on and tells what the monitor has found, once a statement has
+// called tmc_await_turn().
 void tmc_background(void);
 
 #endif

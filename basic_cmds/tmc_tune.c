@@ -48,7 +48,8 @@ static unsigned axis_of(unsigned driver) {
     return tmc22xx_info(driver, &info) ? info.axis : TMC22XX_NO_AXIS;
 }
 
-// TSTEP at a feed of the driver's axis, 0 for none. Errors: no axis that is configured; faster than it can go.
+// TSTEP at a feed of the driver's axis, 0 for none. Errors: no axis that is configured; faster than
+// it can go.
 static err_t tstep_at(unsigned driver, double feed, uint32_t *tstep) {
     unsigned axis = axis_of(driver);
     if (axis == TMC22XX_NO_AXIS) {

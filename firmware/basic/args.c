@@ -274,8 +274,8 @@ static int find_command(int row, const char **behind) {
     return found;
 }
 
-// A word that stands where the arguments of a row of one word begin, but as no argument can: nothing
-// behind it, or something other than an operator. It was meant as a word of a longer name.
+// A word that stands where the arguments of a row of one word begin, but as no argument can:
+// nothing behind it, or something other than an operator. It was meant as a word of a longer name.
 static bool is_unknown_word(const basic_command_t *command, int chain) {
     const lexer_token_t word = *lexer_now();
     bool one_word = strchr(command->name, ' ') == NULL;

@@ -1,5 +1,5 @@
-// Simulated motor drivers on wires, for sessions at the prompt; in half of the sessions some of them
-// fail in one way or another.
+// Simulated motor drivers on wires, for sessions at the prompt; in half of the sessions some of
+// them fail in one way or another.
 #ifndef FUZZ_DRIVERS_H
 #define FUZZ_DRIVERS_H
 
