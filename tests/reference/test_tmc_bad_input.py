@@ -235,3 +235,35 @@ def test_a_cable_that_comes_back(tmp_path: Path) -> None:
     assert session.errors() == []
     assert session.number() == 0
     assert writes(session.edges, TX)[-2:] != []
+
+
+REGISTERS = {"GCONF": 0x1C0, "IHOLD_IRUN": 0x00081907, "CHOPCONF": 0x14030153, "TPOWERDOWN": 20}
+"""Of SET_UP[0]."""
+OTHER_LINE = "TMC22xx GP21, 2209, 0, 1000, 25, 32, , 0"
+OTHERS = {"GCONF": 0x1C4, "IHOLD_IRUN": 0x00081104, "CHOPCONF": 0x13010153, "TPOWERDOWN": 20}
+FAULTS = ["unplugged", "deaf", "silent", "bad-crc", "late", "garbled"]
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("late_ms", range(0, 24, 3))
+def test_a_set_up_that_fails_half_way(fault: str, late_ms: int, tmp_path: Path) -> None:
+    """Behind the next statement the driver has one set of settings whole, that which is told."""
+    start = 1000 + late_ms
+    drivers = [f"tmc2209 tx=GP21 address=0 fault={fault}@{start}-{start + 150}"]
+    session = typed(
+        tmp_path,
+        SET_UP[0],
+        "TMC22xx MONITOR 0",
+        f"DO : LOOP UNTIL TIMER >= 1000 : {OTHER_LINE}",
+        "PAUSE 500",
+        "TMC22xx SGTHRS 0, 7",
+        "TMC22xx STATUS",
+        drivers=drivers,
+    )
+    done = error_of(session.answers[2]) == ""
+    assert error_of(session.answers[4]) == ""
+    assert session.report.register("SGTHRS") == 7
+    for name, value in (OTHERS if done else REGISTERS).items():
+        assert session.report.register(name) == value, name
+    told = "994 mA (CS 17, vsense 0)" if done else "795 mA (CS 25, vsense 1)"
+    assert told in session.last
