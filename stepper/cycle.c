@@ -20,6 +20,10 @@ static struct {
     bool stopped;   // somebody asked for a stop
     bool was_armed; // when it began
 
+    bool latch_waits; // to be armed
+    uint64_t latch_at_us;
+    step_isr_latch_t latch;
+
     stepper_cycle_t last; // how that one ended
     cycle_end_t end;
     uint8_t end_axes;
@@ -67,6 +71,20 @@ void cycle_stop(void) {
     cycle.stopped = true;
 }
 
+static void arm_latch(void) {
+    cycle.latch_waits = false;
+    hal_governor_lock();
+    step_isr_latch_arm(&cycle.latch);
+    hal_governor_unlock();
+}
+
+static void disarm_latch(void) {
+    cycle.latch_waits = false;
+    hal_governor_lock();
+    step_isr_latch_disarm();
+    hal_governor_unlock();
+}
+
 void cycle_end(cycle_end_t why, uint32_t who, double mm) {
     uint32_t group;
     const char *phase = stepper_homing_phase(&group);
@@ -83,9 +101,7 @@ void cycle_end(cycle_end_t why, uint32_t who, double mm) {
         home_config_switch((axis_id_t)__builtin_ctz(cycle.end_axes), &found);
     }
     cycle.end_max = found.max;
-    hal_governor_lock();
-    step_isr_latch_disarm();
-    hal_governor_unlock();
+    disarm_latch();
     kinds[cycle.kind].end(why == CYCLE_DONE);
     cycle.kind = STEPPER_CYCLE_NONE;
     if (cycle.moves) {
@@ -120,6 +136,9 @@ void stepper_background(void) {
         homing_hook_tidy();
         return;
     }
+    if (cycle.latch_waits && hal_time_us() >= cycle.latch_at_us) {
+        arm_latch();
+    }
     machine_follow_stops();
     if (cycle.kind != STEPPER_CYCLE_NONE && !governor_working() && !machine_stopping()) {
         if (!cycle.moves) {
@@ -141,15 +160,17 @@ void cycle_move(const int32_t target[AXIS_COUNT], double feed, const cycle_until
         move.target[axis] = axis_from_steps(axis, target[axis]);
     }
     if (until != NULL) {
-        const step_isr_latch_t latch = {
+        cycle.latch = (step_isr_latch_t){
             .pins = until->pins,
             .levels = until->levels,
             .halts = until->halts,
             .samples = limits_latch_samples(),
         };
-        hal_governor_lock();
-        step_isr_latch_arm(&latch);
-        hal_governor_unlock();
+        cycle.latch_at_us = hal_time_us() + until->after_us;
+        cycle.latch_waits = until->after_us > 0;
+        if (!cycle.latch_waits) {
+            arm_latch();
+        }
     }
     moves_push_line(&move, target);
     hal_governor_request();
@@ -159,8 +180,8 @@ uint32_t cycle_moved(int32_t steps[AXIS_COUNT]) {
     uint32_t pins;
     hal_governor_lock();
     bool latched = step_isr_latched(steps, &pins);
-    step_isr_latch_disarm();
     hal_governor_unlock();
+    disarm_latch();
     return latched ? pins : 0;
 }
 

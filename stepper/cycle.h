@@ -43,9 +43,11 @@ void cycle_forget(void);
 // ---- Moves of a cycle; the machine is at rest ---------------------------------------------------
 
 // What ends a move of a cycle early: one of `pins` has its level of `levels`. Motion is braked
-// then, or ends at once if it is one of `halts`. Masks of pins.
+// then, or ends at once if it is one of `halts`. Masks of pins. They are not looked at for the
+// first `after_us`.
 typedef struct {
     uint32_t pins, levels, halts;
+    uint32_t after_us;
 } cycle_until_t;
 
 // A line to `target` steps, at `feed` units/min whatever the override says. `until` may be NULL.

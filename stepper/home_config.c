@@ -16,6 +16,7 @@
 #define LATCH_MIN_MM_MIN 60.0
 #define TRAVEL_PART 1.5 // of the soft limits' span
 #define TRAVEL_MM 1000.0
+#define SPEED_UP_MORE_S 0.02 // for the first measurements of a driver at speed
 
 // As stepper_home_t, in half the memory; the position is rounded to steps anyway.
 typedef struct {
@@ -111,6 +112,26 @@ err_t home_config_check(axis_id_t axis) {
 
 bool home_config_latch_is_set(axis_id_t axis) {
     return homes.axes[axis].latch >= 0.0f;
+}
+
+static double seek_mm_s(axis_id_t axis) {
+    stepper_home_t home;
+    stepper_home_settings(axis, &home);
+    return fmin(home.seek / 60.0, (double)axes[axis].velocity);
+}
+
+// An S-curve takes up to twice as long as a trapezoid.
+static double speed_up_s(axis_id_t axis) {
+    return SPEED_UP_MORE_S + 2.0 * seek_mm_s(axis) / (double)axes[axis].acceleration;
+}
+
+uint32_t home_config_speed_up_us(axis_id_t axis) {
+    return (uint32_t)(1e6 * speed_up_s(axis));
+}
+
+double home_config_speed_up_mm(axis_id_t axis) {
+    double speed = seek_mm_s(axis);
+    return speed * (speed_up_s(axis) - 0.5 * speed / (double)axes[axis].acceleration);
 }
 
 bool stepper_home_halts(axis_id_t axis) {

@@ -39,4 +39,10 @@ uint32_t home_config_all(void);
 // The axes of `left` (mask, not 0) that are homed next, together.
 uint32_t home_config_next(uint32_t left);
 
+// How long an axis takes to its seek feed, and its way until then, with a reserve. A driver
+// measures the load of its motor once in a full step and at speed only: a stall that it shows
+// before may be none.
+uint32_t home_config_speed_up_us(axis_id_t axis);
+double home_config_speed_up_mm(axis_id_t axis);
+
 #endif

@@ -3,6 +3,8 @@
 //
 //   switch closed  |<-- clearance ->                   only if it is closed at the start
 //             |<===|================ approach ======   seek feed, ends where the switch closes
+//             |====|=========>       run up            only behind a stall while it accelerated
+//             |<===|==========       approach again    with its full speed when it gets there
 //             |====|======> back off                   to pull_off from there
 //                  |<====== refine                     latch feed, ends where the switch closes
 //                  |======> pull off                   to pull_off from there: the home position
@@ -24,6 +26,8 @@
 typedef enum {
     PHASE_LEAVE,
     PHASE_APPROACH,
+    PHASE_RUN_UP,
+    PHASE_AGAIN,
     PHASE_BACK_OFF,
     PHASE_REFINE,
     PHASE_PULL_OFF,
@@ -40,6 +44,8 @@ typedef struct {
 static const phase_row_t phases[PHASES] = {
     [PHASE_LEAVE] = {"leaving the switch", true, false, false},
     [PHASE_APPROACH] = {"approaching the switch", true, true, false},
+    [PHASE_RUN_UP] = {"backing off", false, false, false},
+    [PHASE_AGAIN] = {"approaching the switch", true, true, false},
     [PHASE_BACK_OFF] = {"backing off", false, false, false},
     [PHASE_REFINE] = {"approaching slowly", true, true, true},
     [PHASE_PULL_OFF] = {"pulling off", false, false, false},
@@ -50,6 +56,7 @@ static struct {
     uint8_t group;  // being homed; 0: none yet
     uint8_t todo;   // of the group, in this phase
     uint8_t stalls; // of the group: those without a switch, see notice_stalls()
+    uint8_t doubts; // of those: found while they accelerated
     bool moved;     // a move of the phase has been made
     bool settled;   // and the pause behind it
     phase_t phase;
@@ -111,6 +118,9 @@ static uint32_t who(phase_t phase) {
     if (phase == PHASE_LEAVE) {
         return home_config_closed(homing.group);
     }
+    if (phase == PHASE_RUN_UP || phase == PHASE_AGAIN) {
+        return homing.doubts;
+    }
     uint32_t refining = 0;
     FOR_AXES(axis, homing.group) {
         stepper_home_t home;
@@ -156,10 +166,11 @@ static void search(void) {
     cycle_until_t until = {0};
     FOR_AXES(axis, moving) {
         home_switch_t found = home_config_switch_of(axis);
-        bool halts = homing.phase == PHASE_APPROACH && stepper_home_halts(axis);
+        bool halts = row->towards && !row->slowly && stepper_home_halts(axis);
         until.pins |= found.pin;
         until.levels |= found.high == row->towards ? found.pin : 0;
         until.halts |= halts ? found.pin : 0;
+        until.after_us = homing.phase == PHASE_AGAIN ? home_config_speed_up_us(axis) : 0;
         homing.start[axis] = target[axis];
         double way = direction(axis) * (row->towards ? feed[axis] : -feed[axis]) * minutes;
         if (!axis_to_steps(axis, axis_from_steps(axis, target[axis]) + way, &target[axis])) {
@@ -170,7 +181,7 @@ static void search(void) {
     cycle_move(target, sqrt(square), &until);
 }
 
-// To the place that is pull_off away from the switch.
+// To the place that is pull_off away from the switch, or more if it is to speed up from there.
 static void leave(void) {
     double feed = DBL_MAX; // that none of them minds
     int32_t target[AXIS_COUNT];
@@ -178,7 +189,9 @@ static void leave(void) {
     FOR_AXES(axis, homing.todo) {
         stepper_home_t home;
         stepper_home_settings(axis, &home);
-        double to = axis_from_steps(axis, homing.place[axis]) - direction(axis) * home.pull_off_mm;
+        bool runs_up = homing.phase == PHASE_RUN_UP;
+        double way = home.pull_off_mm + (runs_up ? home_config_speed_up_mm(axis) : 0.0);
+        double to = axis_from_steps(axis, homing.place[axis]) - direction(axis) * way;
         if (!axis_to_steps(axis, to, &target[axis])) {
             cycle_end(CYCLE_TOO_FAR, 1u << axis, 0.0);
             return;
@@ -222,7 +235,11 @@ static void use_up(uint32_t moved) {
 static void notice_stalls(uint32_t moved) {
     FOR_AXES(axis, moved & ~(uint32_t)homing.todo) {
         bool opened = home_config_switch_of(axis).high && !home_config_is_closed(axis);
-        homing.stalls |= (uint8_t)((opened && !home_config_latch_is_set(axis)) << axis);
+        bool stalls = opened && !home_config_latch_is_set(axis);
+        double way = axis_from_steps(axis, homing.place[axis] - homing.start[axis]);
+        bool early = fabs(way) < home_config_speed_up_mm(axis);
+        homing.stalls |= (uint8_t)(stalls << axis);
+        homing.doubts |= (uint8_t)((stalls && early) << axis);
     }
 }
 
@@ -268,6 +285,7 @@ static void end_leaving(void) {
 static void begin_group(void) {
     homing.group = (uint8_t)home_config_next(homing.wanted);
     homing.stalls = 0;
+    homing.doubts = 0;
     axis_id_t unsure = home_config_on_either_end(homing.group);
     if (unsure < STEPPER_HOME_AXES) {
         cycle_end(CYCLE_EITHER_END, 1u << unsure, 0.0);

@@ -23,7 +23,8 @@ void stepper_background(void);
 // A group of axes goes to its switches at the seek feed until the last of them has closed, backs
 // off, goes there again at the latch feed, and pulls off. An axis then stands at its home position,
 // `pull_off` away from the place where its switch closed, to the step. A switch that is pressed at
-// the start is left first.
+// the start is left first. A stall output (see `latch`) that rises before the axis can have its
+// speed is doubted: the axis backs off by a run-up and goes there again.
 
 #define STEPPER_HOME_AXES 3u // X, Y, Z
 
