@@ -89,18 +89,10 @@ void tmc_warn_of_current(unsigned driver) {
     }
 }
 
-// ---- Set-up -------------------------------------------------------------------------------------
-
-// The microsteps of a driver that is there, 0 of others.
-static unsigned microsteps_of(const tmc22xx_settings_t *settings) {
-    unsigned driver;
-    bool found = tmc22xx_find(settings->address, settings->tx_gpio, &driver) == ERR_OK;
-    return found ? tmc22xx_driver(driver)->microsteps : 0;
-}
-
-static void warn_of_scale(unsigned driver, unsigned before, unsigned now) {
+void tmc_warn_of_scale(unsigned driver, unsigned before) {
     tmc22xx_info_t info;
-    if (before == 0 || before == now || !tmc22xx_info(driver, &info) ||
+    unsigned now = tmc22xx_driver(driver) != NULL ? tmc22xx_driver(driver)->microsteps : 0;
+    if (before == 0 || now == 0 || before == now || !tmc22xx_info(driver, &info) ||
         info.axis == TMC22XX_NO_AXIS || !stepper_axis_configured((axis_id_t)info.axis)) {
         return;
     }
@@ -110,6 +102,15 @@ static void warn_of_scale(unsigned driver, unsigned before, unsigned now) {
     basic_printf("Warning: with %u instead of %u microsteps the %c axis needs STEPPER TUNE "
                  "%c,,%.9g\n",
                  now, before, letter, letter, config.steps_per_unit * now / before);
+}
+
+// ---- Set-up -------------------------------------------------------------------------------------
+
+// The microsteps of a driver that is there, 0 of others.
+static unsigned microsteps_of(const tmc22xx_settings_t *settings) {
+    unsigned driver;
+    bool found = tmc22xx_find(settings->address, settings->tx_gpio, &driver) == ERR_OK;
+    return found ? tmc22xx_driver(driver)->microsteps : 0;
 }
 
 static err_t set_up(const tmc22xx_settings_t *settings) {
@@ -124,7 +125,7 @@ static err_t set_up(const tmc22xx_settings_t *settings) {
     }
     if (err == ERR_OK && tmc22xx_find(settings->address, settings->tx_gpio, &driver) == ERR_OK) {
         tmc_warn_of_current(driver);
-        warn_of_scale(driver, before, settings->microsteps);
+        tmc_warn_of_scale(driver, before);
     }
     return err;
 }

@@ -54,6 +54,9 @@ err_t tmc_finish(err_t begun);
 // Tells if the driver cannot give the current that was asked for.
 void tmc_warn_of_current(unsigned driver);
 
+// Tells if its axis needs another scale, since it had so many microsteps before; 0: not known.
+void tmc_warn_of_scale(unsigned driver, unsigned before);
+
 // The error for a setting that would change where steps lead while motion is active or queued.
 err_t tmc_check_still(const char *what);
 

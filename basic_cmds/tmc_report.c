@@ -119,7 +119,15 @@ err_t tmc_report_write(const basic_arg_t *args, size_t count) {
     err_t err = tmc_begin(&args[0], &args[3], &driver);
     err = err != ERR_OK ? err : find_register(&args[1], "register", driver, &reg);
     err = err != ERR_OK ? err : check_write(driver, reg->address, value);
-    return err != ERR_OK ? err : tmc_finish(tmc22xx_begin_write(driver, reg->address, value));
+    if (err != ERR_OK) {
+        return err;
+    }
+    unsigned before = tmc22xx_driver(driver)->microsteps;
+    err = tmc_finish(tmc22xx_begin_write(driver, reg->address, value));
+    if (err == ERR_OK) {
+        tmc_warn_of_scale(driver, before);
+    }
+    return err;
 }
 
 // ---- PEEK ---------------------------------------------------------------------------------------

@@ -204,6 +204,8 @@ def test_microsteps_wait_for_a_standstill(tmp_path: Path) -> None:
     )
     assert "32 microsteps" in session.last
     assert session.axis("X").end_steps() == 1600
+    session = driven(tmp_path, *READY, SET_UP, TIE, write.replace("15", "12", 1))
+    assert session.last.endswith("the X axis needs STEPPER TUNE X,,320")
 
 
 # ---- Reading -------------------------------------------------------------------------------------
