@@ -101,20 +101,10 @@ static uint32_t choose(uint32_t axes) {
     return drivers;
 }
 
-// Those of them that are still there.
-static uint32_t left_armed(void) {
-    uint32_t drivers = 0;
-    for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
-        bool there = tmc22xx_driver(driver) != NULL;
-        drivers |= there ? arming.drivers & (1u << driver) : 0;
-    }
-    return drivers;
-}
-
 // ---- The hook -----------------------------------------------------------------------------------
 
 static stepper_arm_t begin(uint32_t axes, bool on) {
-    arming.drivers = on ? choose(axes) : left_armed();
+    arming.drivers = on ? choose(axes) : arming.drivers; // those closed meanwhile do not matter
     if (arming.drivers == 0) {
         return STEPPER_ARM_DONE;
     }

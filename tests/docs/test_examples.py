@@ -141,6 +141,18 @@ def test_what_a_page_says_to_type_works(page: str) -> None:
             assert not failed(answer), (step.line, answer)
 
 
+def test_what_the_text_about_drivers_says_works() -> None:
+    """Each `TMC22xx ...` in the running text of that page, after all that is typed there."""
+    page = "docs/tmc22xx.md"
+    text = re.sub(r"```.*?```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL)
+    lines = re.findall(r"`(TMC22xx \w+ [^`]*)`", text)
+    assert len(lines) > 12
+    before = [step.line for step in script(page)]
+    answers = converse([*before, *lines], *TYPED[page])[len(before) :]
+    for line, answer in zip(lines, answers, strict=True):
+        assert not failed(answer), (line, answer)
+
+
 def test_the_check_finds_a_planted_fault() -> None:
     """A refused line is seen as one, an answer is taken from the right place."""
     answers = converse(["PRINT 3 * 4", "STEPPER RUN", "PRINT 1"])

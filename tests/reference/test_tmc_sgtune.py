@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from typed import Event, Session, typed
+from typed import Event, Session, program, typed
 
 from stepmite.sgtune import Tuning, parse
 
@@ -123,6 +123,41 @@ def test_a_driver_that_the_letter_does_not_mean(tmp_path: Path) -> None:
     at, _ = tuned(tmp_path / "2", *lines, *tuning.commands, machine=machine)
     assert at.errors() == []
     assert at.report.register("SGTHRS", 1) > 0
+
+
+def test_an_axis_in_degrees(tmp_path: Path) -> None:
+    """The unit is said, and nothing of homing, which A has not."""
+    machine = ["axis A step=GP2 dir=GP3", DRIVER.replace("axis=X", "axis=A")]
+    set_up = ["STEPPER INIT", "STEPPER AXIS A,GP2,GP3,GP4,,10,36000,5000", "STEPPER RUN"]
+    drivers = [SET_UP[0], "TMC22xx AXIS 0,A"]
+    at, tuning = tuned(
+        tmp_path, "TMC22xx SGTUNE A,18000,400", machine=machine, set_up=[*set_up, *drivers]
+    )
+    assert at.errors() == []
+    assert tuning.unit == "deg"
+    assert "At 18000 deg/min" in at.last
+    assert tuning.commands[1] == "TMC22xx STALL A,10800"
+    assert "Homing" not in at.last
+
+
+PROGRAM = """
+ON ERROR SKIP
+TMC22xx SGTUNE X,6000,4
+PRINT "error"; MM.ERRNO <> 0
+FOR i = 1 TO -1 STEP -2
+  TMC22xx SGTUNE X,3000,i*30
+NEXT
+PRINT "at"; PEEK(STEPPER X)
+"""
+
+
+def test_in_a_program(tmp_path: Path) -> None:
+    """One tunes both ways and goes on, also behind an error."""
+    text = "\n".join(SET_UP) + PROGRAM
+    shown = program(tmp_path, text, drivers=MACHINE, events=[RELEASED]).answers[0]
+    assert "error 1\n" in shown
+    assert shown.count("Proposal: a stall is") == 2
+    assert shown.endswith("at 4")
 
 
 # ---- Where it ends early -------------------------------------------------------------------------
