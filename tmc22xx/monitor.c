@@ -106,22 +106,33 @@ static bool is_watched(unsigned driver) {
     return entry != NULL && entry->listens;
 }
 
-unsigned monitor_due(void) {
-    if (drivers_count() == 0 || monitor.off || !jobs_verifies()) {
-        return DRIVERS_NONE;
-    }
-    uint64_t now_us = hal_time_us();
-    if (now_us < monitor.due_us) {
-        return DRIVERS_NONE;
-    }
-    monitor.due_us = now_us + PERIOD_US / drivers_count();
-    for (unsigned i = 0; i < TMC22XX_DRIVERS; i++) {
-        monitor.next = (uint8_t)((monitor.next + 1u) % TMC22XX_DRIVERS);
-        if (is_watched(monitor.next)) {
-            return monitor.next;
+static unsigned next_watched(void) {
+    for (unsigned i = 1; i <= TMC22XX_DRIVERS; i++) {
+        unsigned driver = (monitor.next + i) % TMC22XX_DRIVERS;
+        if (is_watched(driver)) {
+            return driver;
         }
     }
     return DRIVERS_NONE;
+}
+
+bool monitor_is_due(void) {
+    return drivers_count() != 0 && !monitor.off && jobs_verifies() &&
+           hal_time_us() >= monitor.due_us && next_watched() != DRIVERS_NONE;
+}
+
+// After a long sleep of the main loop each driver's turn comes once, not as often as was missed.
+unsigned monitor_take_turn(void) {
+    if (!monitor_is_due()) {
+        return DRIVERS_NONE;
+    }
+    uint64_t now_us = hal_time_us();
+    uint32_t apart_us = PERIOD_US / drivers_count();
+    uint32_t most_us = PERIOD_US - apart_us; // behind
+    monitor.due_us = now_us - monitor.due_us > most_us ? now_us - most_us : monitor.due_us;
+    monitor.due_us += apart_us;
+    monitor.next = (uint8_t)next_watched();
+    return monitor.next;
 }
 
 void tmc22xx_monitor(bool on) {

@@ -14,8 +14,11 @@ void monitor_note_reset(driver_t *entry);
 void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor);
 void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status);
 
+// It is time to look at a driver.
+bool monitor_is_due(void);
+
 // The driver that is to be looked at now; DRIVERS_NONE: none. To be asked while no job is under
 // way.
-unsigned monitor_due(void);
+unsigned monitor_take_turn(void);
 
 #endif

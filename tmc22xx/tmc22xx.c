@@ -303,7 +303,7 @@ void tmc22xx_background(void) {
         jobs_step();
         return;
     }
-    unsigned driver = monitor_due();
+    unsigned driver = monitor_take_turn();
     if (driver != DRIVERS_NONE) {
         jobs_look_after(driver);
         jobs_step();
@@ -311,5 +311,8 @@ void tmc22xx_background(void) {
 }
 
 uint64_t tmc22xx_wake_us(void) {
-    return jobs_busy() ? exchange_wake_us() : UINT64_MAX;
+    if (jobs_busy()) {
+        return exchange_wake_us();
+    }
+    return monitor_is_due() ? 0 : UINT64_MAX;
 }

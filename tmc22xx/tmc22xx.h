@@ -139,7 +139,8 @@ uint32_t tmc22xx_value(unsigned index);
 void tmc22xx_give_up(void);
 
 // Takes jobs on, quickly. To be called whenever the main loop comes round, and no later than
-// tmc22xx_wake_us() if a job is to be as fast as the wire; UINT64_MAX: nothing is under way.
+// tmc22xx_wake_us() if a job is to be as fast as the wire; UINT64_MAX: nothing is under way. The
+// monitor wakes nobody: it looks when the main loop is awake anyway.
 void tmc22xx_background(void);
 uint64_t tmc22xx_wake_us(void);
 

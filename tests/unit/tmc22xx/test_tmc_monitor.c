@@ -83,6 +83,24 @@ static void test_each_is_asked_once_a_second(void) {
     tells_nothing();
 }
 
+// A board that has nothing to do wakes every two seconds.
+static void test_a_main_loop_that_sleeps(void) {
+    for (uint8_t address = 1; address < 3; address++) {
+        line_add(WIRE, address);
+        set_up(address);
+    }
+    line_expect(NULL);
+    for (unsigned i = 0; i < 10; i++) {
+        line.time_us += 2 * SECOND_US;
+        while (tmc22xx_wake_us() <= line.time_us || tmc22xx_busy()) {
+            tmc22xx_background();
+            bool waits = tmc22xx_busy() && tmc22xx_wake_us() > line.time_us;
+            line.time_us = waits ? tmc22xx_wake_us() : line.time_us;
+        }
+    }
+    TEST_ASSERT_UINT_WITHIN(6, 10 * 3 * 2, line.frame_count);
+}
+
 static void test_nobody_is_asked(void) {
     tmc22xx_monitor(false);
     pass(5 * SECOND_US);
@@ -198,7 +216,7 @@ static void test_a_statement_and_the_monitor(void) {
         err_t err = tmc22xx_begin_read(driver, &reg, 1);
         busy += err == ERR_TMC_BUSY;
         while (err == ERR_OK && tmc22xx_busy()) {
-            pass(1000);
+            line_run_until(line.time_us + 100);
         }
         pass(1000 + i % 7000);
         if (err == ERR_OK) {
@@ -228,6 +246,7 @@ static void test_tied_under_way(void) {
 int main(void) {
     UNITY_BEGIN();
     RUN_TEST(test_each_is_asked_once_a_second);
+    RUN_TEST(test_a_main_loop_that_sleeps);
     RUN_TEST(test_nobody_is_asked);
     RUN_TEST(test_too_hot_is_told_once);
     RUN_TEST(test_overheated);
