@@ -229,6 +229,23 @@ def test_machine_bas_can_be_sent_twice() -> None:
     assert shown in (ROOT / "docs/pc-tools.md").read_text(encoding="utf-8")
 
 
+def test_the_example_of_homing_without_switches() -> None:
+    """It homes, and shows the load until X stands at 60 mm."""
+    world = TYPED["docs/tmc22xx.md"]
+    source = ROOT / "examples/sensorless.bas"
+    shown = subprocess.run(
+        [STEPMITE, "--virtual", *world, source],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    ).stdout.replace("\r", "")
+    rows = re.findall(r"^X ([\d.]+) SG_RESULT (\d+) current scale 25$", shown, re.MULTILINE)
+    assert len(rows) >= 5
+    assert rows[-1][0] == "60"
+    assert all(250 < int(load) < 450 for _, load in rows)
+
+
 @cache
 def known_commands() -> set[str]:
     """Return the names of all command rows, from the reference made of them."""
