@@ -4,7 +4,9 @@
 // An answer says which register it is about, but not which request it is for. So after one that
 // did not come as it should the wire is not trusted: the next request is for another register (in
 // turn one of several), and only its answer shows that none is outstanding. An old IFCNT is never
-// taken for a new one, not even from a driver that answers each request too late.
+// taken for a new one, not even from a driver that answers each request too late. (Nor does it say
+// who it is from: an answer of another driver on the wire would have to be later than the wire is
+// quiet, see exchange.h.)
 #ifndef TMC22XX_ACCESS_H
 #define TMC22XX_ACCESS_H
 

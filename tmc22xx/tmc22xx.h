@@ -135,7 +135,7 @@ err_t tmc22xx_result(void);
 uint32_t tmc22xx_value(unsigned index);
 
 // Gives the job of the statement up, if it is still under way: Ctrl-C. What is on the wire ends by
-// itself; registers that were written and do not count are put back by the next job.
+// itself, and registers that were written are put back; until then tmc22xx_busy() is true.
 void tmc22xx_give_up(void);
 
 // Takes jobs on, quickly. To be called whenever the main loop comes round, and no later than
