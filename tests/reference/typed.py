@@ -232,11 +232,14 @@ def program(
     code: int | None = 0,
 ) -> Session:
     """Run a BASIC program from a file; its whole output is the one answer."""
-    source, trace, machine = (folder / name for name in ("program.bas", "edges.csv", "machine.txt"))
+    source, trace, machine, report = (
+        folder / name for name in ("program.bas", "edges.csv", "machine.txt", "report.jsonl")
+    )
     source.write_text(text)
     machine.write_text("".join(row + "\n" for row in machine_rows((), drivers)))
     inputs = write_events(folder / "events.csv", events)
-    world = ["--inputs", inputs, "--machine", machine]
+    world = ["--inputs", inputs, "--machine", machine, "--machine-report", report]
     output = _run(["--trace", trace, *world, source], keys, code)
     _, _, printed = output.partition("\n\n")  # behind the banner
-    return Session([printed.rstrip("\n")], [0.0], Edges.read(trace), output)
+    edges = Edges.read(trace)
+    return Session([printed.rstrip("\n")], [0.0], edges, output, Report.read(report))
