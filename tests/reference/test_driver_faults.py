@@ -15,7 +15,7 @@ import pytest
 from simulated_drivers import Driver, Report
 from typed import program
 
-ROUNDS = 700
+ROUNDS = 900
 """Of four accesses."""
 WIRE_FAULTS = ["silent", "deaf", "unplugged", "bad-crc", "late", "garbled"]
 RESETS = ["brown-out:0", "unpowered"]
@@ -65,7 +65,7 @@ class Access:
     driver: int
     began_ms: float
     ended_ms: float
-    value: int
+    value: float
     error: str
 
 
@@ -98,16 +98,18 @@ def some_trouble(seed: int) -> list[Trouble]:
     chance.shuffle(names)
     troubles, at_ms = [], 150
     for name in names:
-        length_ms = chance.randrange(20, 400)
+        length_ms = (
+            chance.randrange(300, 1500) if name in WIRE_FAULTS else chance.randrange(20, 200)
+        )
         troubles.append(Trouble(name, chance.randrange(2), at_ms, at_ms + length_ms))
-        at_ms += length_ms + chance.randrange(0, 500)
+        at_ms += length_ms + chance.randrange(0, 300)
     return troubles
 
 
 def accesses_of(output: str) -> list[Access]:
-    found = re.findall(r"^([RW]) (\d) ([\d.e+]+) ([\d.e+]+) (\d+) (.*)$", output, re.MULTILINE)
+    found = re.findall(r"^([RW]) (\d) ([\d.e+]+) ([\d.e+]+) (\S+) (.*)$", output, re.MULTILINE)
     return [
-        Access(op == "W", int(d), float(began), float(ended), int(value), error)
+        Access(op == "W", int(d), float(began), float(ended), float(value), error)
         for op, d, began, ended, value, error in found
     ]
 

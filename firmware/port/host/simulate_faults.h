@@ -14,7 +14,8 @@ typedef enum {
     SIMULATE_CHIP_UNPLUGGED, // "unplugged": the same; the wire is off
     SIMULATE_CHIP_BAD_CRC,   // "bad-crc": of the reply
     SIMULATE_CHIP_LATE,      // "late": the reply comes 2 to 10 ms after it should
-    SIMULATE_CHIP_GARBLED,   // "garbled": one bit of each frame turns over, in either direction
+    SIMULATE_CHIP_GARBLED, // "garbled": a bit of a frame turns over, in either direction; of every
+                           // second frame, without a number
     // Of the chip, with a value:
     SIMULATE_CHIP_UNPOWERED,        // "unpowered": without supply, it pulls the wire low
     SIMULATE_CHIP_BROWN_OUT,        // "brown-out": once, all registers as after power-up

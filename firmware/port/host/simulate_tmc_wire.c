@@ -152,6 +152,13 @@ static bool strikes(simulate_tmc_wire_t *wire, simulate_chip_fault_t fault, uint
     return simulate_faults_strikes(&wire->tmc->faults, fault, now_ns);
 }
 
+// Frames that are counted have all of the noise, else it is every second one, more or less.
+static bool is_noisy(simulate_tmc_wire_t *wire, uint64_t now_ns) {
+    uint32_t frames = wire->tmc->faults.list[SIMULATE_CHIP_GARBLED].frames;
+    bool hit = frames != SIMULATE_CHIP_FOR_EVER || (next_random(wire) & 2) != 0;
+    return hit && strikes(wire, SIMULATE_CHIP_GARBLED, now_ns);
+}
+
 static bool hears_nothing(simulate_tmc_wire_t *wire, uint64_t now_ns) {
     return simulate_faults_active(&wire->tmc->faults, SIMULATE_CHIP_UNPOWERED, now_ns) ||
            strikes(wire, SIMULATE_CHIP_DEAF, now_ns) ||
@@ -191,7 +198,7 @@ bool simulate_tmc_wire_hear(simulate_tmc_wire_t *wire, const simulate_wire_words
         (for_me && hears_nothing(wire, end_ns))) {
         return false;
     }
-    bool noise = for_me && strikes(wire, SIMULATE_CHIP_GARBLED, end_ns);
+    bool noise = for_me && is_noisy(wire, end_ns);
     bool on_the_way_back = noise && words->size == REQUEST_SIZE && (next_random(wire) & 1) != 0;
     simulate_wire_words_t heard = *words;
     if (noise && !on_the_way_back) {
