@@ -134,8 +134,10 @@ def draw(tuning: Tuning, title: str, output: Path) -> None:
     against.plot(speed, lowest, "_", color=ACCENT, markersize=5)
     style(against, f"speed in {tuning.unit}/min", "SG_RESULT")
     against.set_xlim(left=0)
-    if tuning.least_speed is not None:
-        against.axvspan(tuning.least_speed, against.get_xlim()[1], color=COMMANDED, alpha=0.15)
+    if tuning.least_speed is not None and tuning.threshold is not None:
+        fast = [tuning.least_speed, against.get_xlim()[1]]
+        against.fill_between(fast, tuning.threshold, color=COMMANDED, alpha=0.25, linewidth=0)
+        against.set_xlim(right=fast[1])
         against.set_title("shaded: where a stall is told", color=INK, fontsize=8)
     for axes in (load, against):
         axes.set_ylim(0, top)
