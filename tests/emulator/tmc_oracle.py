@@ -192,6 +192,8 @@ class Oracle:
         self.count = Count()
         self.held_until_ns = 0.0
         """A wire is without plug or power until then."""
+        self.disturbed = False
+        """Something other than the driver itself may have spoilt any exchange of the statement."""
         self.since_ns = 0.0
         """End of the last statement."""
         self.believed = {driver.name: 0 for driver in drivers}
@@ -232,15 +234,15 @@ class Oracle:
             assert driver.name in self.changed or self.is_kept(driver), f"not as before: {context}"
             return
         self.check_repeats(frames, wrong, context)
-        if line.number >= 100 or self.of(line).write:
-            self.changed.discard(driver.name)
-            assert self.is_kept(driver), f"a register was forgotten: {context}"
         if line.number >= 100:
             self.check_set_up(frames, context)
         elif self.of(line).write:
             self.check_write(line, frames, context)
         else:
             self.check_read(line, frames, context)
+            return
+        self.changed.discard(driver.name)
+        assert self.is_kept(driver), f"a register was forgotten: {context}"
 
     def of(self, line: Said) -> Statement:
         return self.statements[line.number]
@@ -290,8 +292,8 @@ class Oracle:
             assert self.untold[name] < 5, f"the reset of {name} was not told: {line}"
 
     def was_wrong(self, faults: list[Entry], frames: list[Entry]) -> bool:
-        held = self.since_ns < self.held_until_ns
-        return bool(faults) or was_reset(frames) or held or any(map(is_wrong, frames))
+        self.disturbed = bool(faults) or self.since_ns < self.held_until_ns
+        return self.disturbed or was_reset(frames) or any(map(is_wrong, frames))
 
     def check_repeats(self, frames: list[Entry], wrong: bool, context: str) -> None:
         """Without a fault nothing is asked twice, but IFCNT at writes, GSTAT before and after."""
@@ -320,7 +322,8 @@ class Oracle:
             return
         assert answered(reads[-1]), f"no answer to the last request: {context}"
         assert reads[-1]["value"] == line.value, f"mistaken: {context}"
-        assert all(map(is_wrong, reads[:-1])), f"repeated for nothing: {context}"
+        needed = self.disturbed or all(map(is_wrong, reads[:-1]))
+        assert needed, f"repeated for nothing: {context}"
 
     def check_write(self, line: Said, frames: list[Entry], context: str) -> None:
         self.count.writes += 1
