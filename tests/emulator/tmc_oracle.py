@@ -27,8 +27,8 @@ GSTAT, IFCNT = 0x01, 0x02
 SETUP_REGISTERS = (0x00, 0x10, 0x11, 0x6C, 0x70)
 REPLY_LATEST_BITS = 128 + 32
 """Behind the request; the firmware waits for a little longer than the longest SENDDELAY."""
-SPOILS = ("silent", "deaf", "bad-crc", "cut")
-"""Faults after which no whole answer of the exchange exists."""
+SPOILS = ("silent", "deaf", "bad-crc")
+"""Faults (noise, or an end of power or plug on the way, may leave it whole) after which no whole answer of the exchange exists."""
 
 
 @dataclass(frozen=True)
@@ -258,18 +258,20 @@ class Oracle:
     def follow(self, driver: Driver, line: Said, faults: list[Entry], frames: list[Entry]) -> None:
         """Keep track of the kept register, and of drivers whose reset is still to be told."""
         entries = sorted([*faults, *frames], key=lambda entry: entry["time_ns"])
+        is_set_up = line.number >= 100 and line.error is None
         for entry in entries:
             if entry.get("fault") in ("brown-out", "unpowered") and entry["kind"] == "fault":
                 self.held[entry["driver"]] = 0
                 self.lost.add(entry["driver"])
+            elif entry["kind"] == "read" and entry["register"] == GSTAT and is_set_up:
+                self.lost.discard(driver.name)  # until then it was not reset; behind it it may be
             elif entry.get("register") == KEPT and "sent" in entry and taken(entry):
                 self.held[driver.name] = entry["sent"]
         is_write = line.number < 100 and self.of(line).write
         if line.error is None and is_write and self.of(line).register == KEPT:
             self.believed[driver.name] = line.value or 0
         self.follow_resets(driver, line, frames)
-        if line.error is None and line.number >= 100:
-            self.lost.discard(driver.name)
+        if is_set_up:
             self.told.discard(driver.name)
             self.untold.pop(driver.name, None)
 
