@@ -28,7 +28,7 @@ SETUP_REGISTERS = (0x00, 0x10, 0x11, 0x6C, 0x70)
 REPLY_LATEST_BITS = 128 + 32
 """Behind the request; the firmware waits for a little longer than the longest SENDDELAY."""
 SPOILS = ("silent", "deaf", "bad-crc")
-"""Faults (noise, or an end of power or plug on the way, may leave it whole) after which no whole answer of the exchange exists."""
+"""Faults after which there is no whole answer. Noise or a cut near its end may leave one."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +79,7 @@ def program(
         *(driver.set_up() for driver in drivers),
         *after,
         'PRINT "begin"',
+        "PAUSE 20",
         "ON ERROR IGNORE",
         "DO",
         "n=n+1",
