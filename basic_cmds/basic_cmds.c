@@ -54,6 +54,7 @@ void basic_cmds_new(void) {
     if (stepper_active() >= 0) {
         stepper_close();
     }
+    tmc_homing_finish();
     tmc_new();
 }
 

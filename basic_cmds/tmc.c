@@ -1,6 +1,8 @@
 // TMC22xx: set-up of drivers, WIRE, AXIS, VERIFY, MONITOR, CLOSE. Context: main loop.
 #include "basic_cmds/tmc.h"
 
+#include "basic_cmds/tmc_homing.h"
+
 #include "basic_cmds/report.h"
 #include "stepper/stepper.h"
 
@@ -182,7 +184,8 @@ err_t tmc_monitor(const basic_arg_t *args, size_t count) {
 // Waits, so that no frame is cut off.
 err_t tmc_close(const basic_arg_t *args, size_t count) {
     (void)count;
-    err_t err = tmc_await_turn();
+    err_t err = tmc_homing_await();
+    err = err != ERR_OK ? err : tmc_await_turn();
     return err != ERR_OK ? err : tmc22xx_close((uint8_t)args[0].integer);
 }
 

@@ -11,10 +11,12 @@
 // the approach is above it with room to spare, and most of its ramp below.
 #define FEED_PART 0.6
 
+#define LOOK_US 1000u
+
 static struct {
     bool begun;       // a job is under way that has begun
     bool to_on;       // with this
-    uint32_t drivers; // that are armed, or were to be; a mask
+    uint32_t drivers; // that are armed, or are to be; a mask
 } arming;
 
 // ---- Which drivers ------------------------------------------------------------------------------
@@ -126,6 +128,7 @@ static stepper_arm_t take_on(uint32_t axes, bool on) {
     if (arming.to_on != on) {
         return begin(axes, on);
     }
+    arming.drivers = on ? arming.drivers : 0;
     return tmc22xx_arm_result() == ERR_OK ? STEPPER_ARM_DONE : STEPPER_ARM_FAILED;
 }
 
@@ -141,6 +144,31 @@ static stepper_arm_t arm(uint32_t axes, bool on) {
     }
     err_put_back(&kept);
     return answer;
+}
+
+// ---- Before wires are closed --------------------------------------------------------------------
+
+err_t tmc_homing_await(void) {
+    if (stepper_cycle() == STEPPER_CYCLE_HOMING && arming.drivers != 0) {
+        return err_raise(ERR_CYCLE_ACTIVE, "Homing");
+    }
+    while (stepper_homing_disarms()) {
+        if (!basic_wait(hal_time_us() + LOOK_US)) {
+            return err_raise(ERR_TMC_BROKEN_OFF, NULL);
+        }
+    }
+    return ERR_OK;
+}
+
+void tmc_homing_finish(void) {
+    while (stepper_homing_disarms()) {
+        uint64_t until_us = hal_time_us() + LOOK_US;
+        if (!basic_wait(until_us)) { // Ctrl-C asks for nothing else
+            hal_idle(until_us);
+            tmc22xx_background();
+            stepper_background();
+        }
+    }
 }
 
 void tmc_homing_start(void) {

@@ -13,6 +13,10 @@ void stepper_homing_set_hook(const stepper_homing_hook_t *hook) {
     hooked.hook = hook;
 }
 
+bool stepper_homing_disarms(void) {
+    return hooked.left != 0;
+}
+
 err_t homing_hook_check(uint32_t axes) {
     return hooked.hook == NULL ? ERR_OK : hooked.hook->check(axes);
 }

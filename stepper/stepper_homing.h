@@ -96,6 +96,9 @@ typedef struct {
 // NULL: nobody. The hook has to stay valid.
 void stepper_homing_set_hook(const stepper_homing_hook_t *hook);
 
+// The hook still has to disarm what a cycle that has ended has left armed.
+bool stepper_homing_disarms(void);
+
 // ---- Probing ------------------------------------------------------------------------------------
 
 // The probe's input; active low with pull-up, or high with pull-down if inverted. PINS_NONE takes

@@ -237,12 +237,28 @@ def test_ctrl_c_while_it_is_being_armed(tmp_path: Path) -> None:
     assert at.report.full_steps() == pytest.approx((END + 240) / 16, abs=2)
 
 
-def test_a_wire_that_is_closed_while_it_is_armed(tmp_path: Path) -> None:
-    """Nothing is left to be disarmed; homing goes on."""
+def test_a_wire_is_not_closed_while_homing_needs_it(tmp_path: Path) -> None:
+    """Or the driver would stay armed."""
     lines = ["STEPPER HOME RUN X", "PAUSE 200", "TMC22xx CLOSE", "PAUSE 3000", KNOWN]
     at = session(tmp_path, *READY, *lines)
+    assert at.errors() == ["Homing is under way (STEPPER STOP or Ctrl-C ends it)"]
+    assert [value > 0 for value in armed(at)] == [True, False]
+    assert at.report.full_steps() == pytest.approx((END + 240) / 16, abs=2)
+
+
+@pytest.mark.parametrize("pause_ms", [1, 3, 200])
+@pytest.mark.parametrize(
+    "close",
+    ["STEPPER ESTOP : TMC22xx CLOSE", "STEPPER STOP : PAUSE 150 : TMC22xx CLOSE", "NEW"],
+)
+def test_disarmed_before_the_wire_is_closed(close: str, pause_ms: int, tmp_path: Path) -> None:
+    """However soon that comes."""
+    lines = ["STEPPER HOME RUN X", f"PAUSE {pause_ms}", close, "PAUSE 500"]
+    at = session(tmp_path, *READY, *lines)
     assert at.errors() == []
-    assert [value > 0 for value in armed(at)] == [True]
+    assert at.report.register("TCOOLTHRS") == 0
+    if pause_ms == 200:
+        assert [value > 0 for value in armed(at)] == [True, False]
 
 
 def test_disarming_that_fails_behind_the_end_is_told(tmp_path: Path) -> None:
