@@ -28,8 +28,8 @@ def command(board: Emulator, line: str, timeout_ms: float = 20_000) -> str:
 
 
 def start(board: Emulator) -> None:
-    board.add_axis("X", 2, 3, at=700)
-    board.add_axis("Y", 5, 6, at=450)
+    board.add_axis("X", 2, 3, at=1500)
+    board.add_axis("Y", 5, 6, at=1200)
     board.add_tmc2209("x", 21, address=0, axis="X", diag=10, stops=(END, None))
     board.add_tmc2209("y", 21, address=1, axis="Y", diag=11, stops=(END, None))
     for line in SETUP:
