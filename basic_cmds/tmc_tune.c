@@ -25,7 +25,7 @@ static err_t set_threshold(const basic_arg_t *args, uint8_t reg) {
     unsigned driver;
     err_t err = tmc_begin(&args[0], &args[2], &driver);
     if (err == ERR_OK) {
-        err = tmc_finish(tmc22xx_set_threshold(driver, reg, (uint32_t)args[1].integer));
+        err = tmc_finish(tmc22xx_begin_write(driver, reg, (uint32_t)args[1].integer));
     }
     return err;
 }
@@ -125,7 +125,7 @@ err_t tmc_tune_stall(const basic_arg_t *args, size_t count) {
     }
     err = err != ERR_OK ? err : tstep_at(driver, args[1].number, &tstep);
     if (err == ERR_OK && always) {
-        err = tmc_finish(tmc22xx_set_threshold(driver, TMC22XX_REG_TCOOLTHRS, tstep));
+        err = tmc_finish(tmc22xx_begin_write(driver, TMC22XX_REG_TCOOLTHRS, tstep));
     }
     if (err == ERR_OK) {
         tmc22xx_keep_threshold(driver, tstep, true);

@@ -107,10 +107,6 @@ static uint16_t rounded(double number) {
     return (uint16_t)(number + 0.5);
 }
 
-static uint16_t chip_number(const driver_t *entry) {
-    return entry->chip == TMC22XX_2208 ? 2208 : 2209;
-}
-
 void drivers_note_settings(driver_t *entry, const tmc22xx_settings_t *settings) {
     entry->run_dma = rounded(settings->run_ma * 10.0);
     entry->hold_bp = rounded(settings->hold_percent * 100.0);
@@ -121,7 +117,7 @@ void drivers_settings(const driver_t *entry, tmc22xx_settings_t *settings) {
     *settings = (tmc22xx_settings_t){
         .tx_gpio = wires_get(entry->wire)->tx_gpio,
         .address = entry->address,
-        .chip = chip_number(entry),
+        .chip = (uint16_t)tmc22xx_chip_number(entry->chip),
         .run_ma = entry->run_dma / 10.0,
         .hold_percent = entry->hold_bp / 100.0,
         .microsteps =
@@ -147,10 +143,6 @@ void drivers_note_current(driver_t *entry) {
 
 // ---- The face -----------------------------------------------------------------------------------
 
-static err_t none(unsigned address) {
-    return err_raise(ERR_TMC_NOT_INITIALIZED, "no driver at address %u", address);
-}
-
 static bool is_at(unsigned driver, unsigned address, uint8_t tx_gpio) {
     const driver_t *entry = &drivers[driver];
     return entry->chip != 0 && entry->address == address &&
@@ -175,11 +167,9 @@ err_t tmc22xx_find(unsigned address, uint8_t tx_gpio, unsigned *driver) {
             return tx_gpio != PINS_NONE ? ERR_OK : find_second(address, i);
         }
     }
-    if (tx_gpio == PINS_NONE) {
-        return none(address);
-    }
-    return err_raise(ERR_TMC_NOT_INITIALIZED, "no driver at address %u on %s", address,
-                     pins_name(tx_gpio));
+    bool on_any = tx_gpio == PINS_NONE;
+    return err_raise(ERR_TMC_NOT_INITIALIZED, "no driver at address %u%s%s", address,
+                     on_any ? "" : " on ", on_any ? "" : pins_name(tx_gpio));
 }
 
 err_t tmc22xx_find_axis(unsigned axis, unsigned *driver) {

@@ -76,7 +76,7 @@ void endings_succeed(void) {
         monitor_note_answer(job_driver());
     }
     if (job.kind == JOB_MONITOR) {
-        monitor_note(job_driver(), phases_look(0), phases_look(1));
+        monitor_note(job_driver(), job.look[0], job.look[1]);
     }
     if (job.kind != JOB_ARM || !jobs_turn_to_next_armed()) {
         endings_finish();

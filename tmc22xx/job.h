@@ -26,7 +26,8 @@ typedef struct {
     uint16_t pending; // kept registers to be written, as bits
     uint16_t touched; // those that were sent
     uint32_t raw_value;
-    driver_t entry; // what the driver will be
+    uint32_t look[2]; // JOB_MONITOR: GSTAT, DRV_STATUS
+    driver_t entry;   // what the driver will be
     outcome_t outcome;
 } job_t;
 

@@ -113,14 +113,6 @@ void jobs_arm(uint32_t drivers, bool on) {
 
 // ---- Under way ----------------------------------------------------------------------------------
 
-bool jobs_busy(void) {
-    return job.kind != JOB_NONE;
-}
-
-bool jobs_arm_busy(void) {
-    return job.kind == JOB_ARM;
-}
-
 void jobs_step(void) {
     while (job.kind != JOB_NONE) {
         access_state_t state = access_poll();
@@ -132,14 +124,6 @@ void jobs_step(void) {
         } else {
             endings_fail_access();
         }
-    }
-}
-
-void jobs_give_up(void) {
-    bool is_statement = job.kind == JOB_SET_UP || job.kind == JOB_CHANGE || job.kind == JOB_READ;
-    if (is_statement && job.phase != PHASES_RESTORE) {
-        job.cancelled = true;
-        access_cancel();
     }
 }
 
@@ -155,24 +139,40 @@ void jobs_cut(unsigned wire) {
     }
 }
 
-// ---- Results ------------------------------------------------------------------------------------
+// ---- Of the face --------------------------------------------------------------------------------
 
-err_t jobs_raise(void) {
+bool tmc22xx_busy(void) {
+    return job.kind != JOB_NONE;
+}
+
+bool tmc22xx_arm_busy(void) {
+    return job.kind == JOB_ARM;
+}
+
+err_t tmc22xx_result(void) {
     return outcome_raise(endings_of_statement());
 }
 
-err_t jobs_raise_arm(void) {
+err_t tmc22xx_arm_result(void) {
     return outcome_raise(endings_of_arm());
 }
 
-uint32_t jobs_value(unsigned index) {
+uint32_t tmc22xx_value(unsigned index) {
     return index < job_reading.count ? job_reading.values[index] : 0;
 }
 
-void jobs_verify(bool on) {
+void tmc22xx_give_up(void) {
+    bool is_statement = job.kind == JOB_SET_UP || job.kind == JOB_CHANGE || job.kind == JOB_READ;
+    if (is_statement && job.phase != PHASES_RESTORE) {
+        job.cancelled = true;
+        access_cancel();
+    }
+}
+
+void tmc22xx_verify(bool on) {
     blind = !on;
 }
 
-bool jobs_verifies(void) {
+bool tmc22xx_verifies(void) {
     return !blind;
 }

@@ -1,5 +1,6 @@
 // The job under way: a chain of accesses to one driver, and what follows when one of them fails.
-// Context: main loop.
+// What tmc22xx.h says about the job under way and its result is in jobs.c as well. Context: main
+// loop.
 #ifndef TMC22XX_JOBS_H
 #define TMC22XX_JOBS_H
 
@@ -29,27 +30,13 @@ void jobs_look_after(unsigned driver);
 
 // ---- Under way ----------------------------------------------------------------------------------
 
-bool jobs_busy(void);
-bool jobs_arm_busy(void);
+// Takes it on as far as it goes without waiting; no effect if there is none.
 void jobs_step(void);
 
 // Of a job for several drivers: turns to the next one; false: there is none.
 bool jobs_turn_to_next_armed(void);
 
-// Ends a job of a statement as soon as it can.
-void jobs_give_up(void);
-
 // The wire closes. A job on it ends at once.
 void jobs_cut(unsigned wire);
-
-// ---- Results ------------------------------------------------------------------------------------
-
-err_t jobs_raise(void); // of the last job of a statement
-err_t jobs_raise_arm(void);
-uint32_t jobs_value(unsigned index);
-
-// Whether the jobs that begin from now on verify what they write.
-void jobs_verify(bool on);
-bool jobs_verifies(void);
 
 #endif

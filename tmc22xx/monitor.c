@@ -3,7 +3,6 @@
 
 #include "base/base.h"
 #include "hal/hal.h"
-#include "tmc22xx/jobs.h"
 #include "tmc22xx/outcome.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
@@ -117,7 +116,7 @@ static unsigned next_watched(void) {
 }
 
 bool monitor_is_due(void) {
-    return drivers_count() != 0 && !monitor.off && jobs_verifies() &&
+    return drivers_count() != 0 && !monitor.off && tmc22xx_verifies() &&
            hal_time_us() >= monitor.due_us && next_watched() != DRIVERS_NONE;
 }
 

@@ -7,10 +7,6 @@
 
 #define PLACE_SIZE 56
 
-static unsigned chip_number(unsigned chip) {
-    return chip == TMC22XX_2208 ? 2208 : 2209;
-}
-
 // "address 0 on GP16 (pin 21), axis X"
 static size_t place(char *text, size_t size, unsigned address, unsigned tx_gpio, unsigned axis) {
     char axis_text[] = ", axis X";
@@ -22,7 +18,7 @@ static size_t place(char *text, size_t size, unsigned address, unsigned tx_gpio,
 size_t outcome_name(char *text, size_t size, const driver_t *entry) {
     char where[PLACE_SIZE];
     place(where, sizeof where, entry->address, wires_get(entry->wire)->tx_gpio, entry->axis);
-    return format_text(text, size, "TMC%u at %s", chip_number(entry->chip), where);
+    return format_text(text, size, "TMC%u at %s", tmc22xx_chip_number(entry->chip), where);
 }
 
 static err_t raise_silent(const outcome_t *outcome, const char *where) {
@@ -51,7 +47,7 @@ static err_t raise_silent(const outcome_t *outcome, const char *where) {
 }
 
 static err_t raise_wrong_chip(const outcome_t *outcome, const char *where) {
-    unsigned wanted = chip_number(outcome->chip);
+    unsigned wanted = tmc22xx_chip_number(outcome->chip);
     if (outcome->found == TMC22XX_VERSION_2208 || outcome->found == TMC22XX_VERSION_2209) {
         return err_raise(ERR_TMC_WRONG_CHIP, "a TMC%u, not a TMC%u: %s",
                          outcome->found == TMC22XX_VERSION_2208 ? 2208u : 2209u, wanted, where);

@@ -9,9 +9,6 @@
 
 #define SEND_DELAY 2 // of an answer: 3 x 8 bit times, for other drivers on the wire to notice
 
-static const uint8_t look_registers[] = {TMC22XX_REG_GSTAT, TMC22XX_REG_DRV_STATUS};
-static uint32_t look[COUNT_OF_ARRAY(look_registers)];
-
 // ---- Writing ------------------------------------------------------------------------------------
 
 static void end_writing(void) {
@@ -153,14 +150,15 @@ static void end_raw(void) {
 }
 
 static void begin_read(void) {
-    access_read(job.kind == JOB_MONITOR ? look_registers[job.next]
-                                        : job_reading.registers[job.next]);
+    static const uint8_t look[COUNT_OF_ARRAY(job.look)] = {TMC22XX_REG_GSTAT,
+                                                           TMC22XX_REG_DRV_STATUS};
+    access_read((job.kind == JOB_MONITOR ? look : job_reading.registers)[job.next]);
 }
 
 static void end_read(void) {
     bool monitor = job.kind == JOB_MONITOR;
-    (monitor ? look : job_reading.values)[job.next++] = access_value();
-    if (job.next < (monitor ? COUNT_OF_ARRAY(look) : job_reading.count)) {
+    (monitor ? job.look : job_reading.values)[job.next++] = access_value();
+    if (job.next < (monitor ? COUNT_OF_ARRAY(job.look) : job_reading.count)) {
         phases_enter(PHASES_READ);
     } else if (!monitor && job_knows_resets()) {
         phases_enter(PHASES_LOOK);
@@ -226,8 +224,4 @@ void phases_enter(phases_t phase) {
 
 void phases_go_on(void) {
     steps[job.phase].end();
-}
-
-uint32_t phases_look(unsigned index) {
-    return look[index];
 }

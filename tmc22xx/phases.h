@@ -34,7 +34,4 @@ void phases_enter(phases_t phase);
 // The access of the phase is done.
 void phases_go_on(void);
 
-// What JOB_MONITOR has read: GSTAT, DRV_STATUS.
-uint32_t phases_look(unsigned index);
-
 #endif

@@ -125,8 +125,7 @@ static uint32_t pwmconf(void) {
 }
 
 err_t tmc22xx_setup_writes(const tmc22xx_settings_t *settings,
-                           tmc22xx_write_t writes[TMC22XX_SETUP_WRITES],
-                           tmc22xx_current_t *current) {
+                           tmc22xx_write_t writes[TMC22XX_SETUP_WRITES]) {
     err_t err = check(settings);
     tmc22xx_current_t run;
     if (err == ERR_OK) {
@@ -141,8 +140,5 @@ err_t tmc22xx_setup_writes(const tmc22xx_settings_t *settings,
     writes[2] = (tmc22xx_write_t){TMC22XX_REG_TPOWERDOWN, POWER_DOWN};
     writes[3] = (tmc22xx_write_t){TMC22XX_REG_CHOPCONF, chopconf(run.vsense, settings->microsteps)};
     writes[4] = (tmc22xx_write_t){TMC22XX_REG_PWMCONF, pwmconf()};
-    if (current != NULL) {
-        *current = run;
-    }
     return ERR_OK;
 }

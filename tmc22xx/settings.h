@@ -51,11 +51,10 @@ double tmc22xx_scale_ma(unsigned scale, bool vsense, double r_sense_ohm);
 
 // What a set-up writes, in this order: GCONF, IHOLD_IRUN, TPOWERDOWN, CHOPCONF, PWMCONF.
 // Errors: ERR_TMC_CHIP, ERR_TMC_ADDRESS, ERR_TMC_MICROSTEPS, ERR_TMC_CURRENT, ERR_ARGUMENT for the
-// rest; nothing is set then. *current (may be NULL) says what the run current really is.
+// rest; nothing is set then.
 #define TMC22XX_SETUP_WRITES 5
 err_t tmc22xx_setup_writes(const tmc22xx_settings_t *settings,
-                           tmc22xx_write_t writes[TMC22XX_SETUP_WRITES],
-                           tmc22xx_current_t *current);
+                           tmc22xx_write_t writes[TMC22XX_SETUP_WRITES]);
 
 // IHOLD_IRUN for a current and its share at standstill; the rest of a set-up's value with it.
 uint32_t tmc22xx_ihold_irun(const tmc22xx_current_t *current, double hold_percent);

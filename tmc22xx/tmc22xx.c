@@ -10,7 +10,7 @@
 #include "tmc22xx/wires.h"
 
 static err_t check_free(void) {
-    return jobs_busy() ? err_raise(ERR_TMC_BUSY, NULL) : ERR_OK;
+    return tmc22xx_busy() ? err_raise(ERR_TMC_BUSY, NULL) : ERR_OK;
 }
 
 // ---- Wires --------------------------------------------------------------------------------------
@@ -61,19 +61,10 @@ static void describe(driver_t *entry, const driver_t *before, const tmc22xx_sett
     drivers_note_settings(entry, settings);
 }
 
-// The wire that is there, or a new one of one pin.
-static err_t want_wire(uint8_t tx_gpio, unsigned *wire, bool *opened) {
-    *wire = wires_find(tx_gpio);
-    *opened = *wire == WIRES_NONE;
-    err_t err = *opened ? wires_set(tx_gpio, tx_gpio, TMC22XX_BAUD) : ERR_OK;
-    *wire = err == ERR_OK ? wires_find(tx_gpio) : WIRES_NONE;
-    return err;
-}
-
 err_t tmc22xx_set_up(const tmc22xx_settings_t *settings) {
     tmc22xx_write_t writes[TMC22XX_SETUP_WRITES];
     err_t err = check_free();
-    err = err != ERR_OK ? err : tmc22xx_setup_writes(settings, writes, NULL);
+    err = err != ERR_OK ? err : tmc22xx_setup_writes(settings, writes);
     if (err != ERR_OK) {
         return err;
     }
@@ -82,10 +73,13 @@ err_t tmc22xx_set_up(const tmc22xx_settings_t *settings) {
     if (driver == DRIVERS_NONE && drivers_free() == DRIVERS_NONE) {
         return err_raise(ERR_TMC_TOO_MANY, NULL);
     }
-    bool opened;
-    err = want_wire(settings->tx_gpio, &wire, &opened);
-    if (err != ERR_OK) {
-        return err;
+    bool opened = wire == WIRES_NONE;
+    if (opened) {
+        err = wires_set(settings->tx_gpio, settings->tx_gpio, TMC22XX_BAUD);
+        if (err != ERR_OK) {
+            return err;
+        }
+        wire = wires_find(settings->tx_gpio);
     }
     driver_t entry;
     describe(&entry, drivers_get(driver), settings, writes);
@@ -135,8 +129,7 @@ err_t tmc22xx_set_current(unsigned driver, double run_ma, double hold_percent) {
 }
 
 static err_t no_register(unsigned chip, const char *name) {
-    return err_raise(ERR_TMC_REGISTER, "A TMC%u has no %s", chip == TMC22XX_2208 ? 2208u : 2209u,
-                     name);
+    return err_raise(ERR_TMC_REGISTER, "A TMC%u has no %s", tmc22xx_chip_number(chip), name);
 }
 
 // All bits of a register up to its highest field; *is_signed: they are one number with a sign.
@@ -201,10 +194,6 @@ err_t tmc22xx_begin_write(unsigned driver, uint8_t reg, uint32_t value) {
     return ERR_OK;
 }
 
-err_t tmc22xx_set_threshold(unsigned driver, uint8_t reg, uint32_t value) {
-    return tmc22xx_begin_write(driver, reg, value);
-}
-
 err_t tmc22xx_set_coolstep(unsigned driver, const tmc22xx_coolstep_t *coolstep) {
     return tmc22xx_begin_write(driver, TMC22XX_REG_COOLCONF,
                                TMC22XX_BITS(COOLCONF, semin, coolstep->semin) |
@@ -264,42 +253,10 @@ err_t tmc22xx_begin_arm(uint32_t drivers, bool on) {
     return err;
 }
 
-bool tmc22xx_arm_busy(void) {
-    return jobs_arm_busy();
-}
-
-err_t tmc22xx_arm_result(void) {
-    return jobs_raise_arm();
-}
-
-bool tmc22xx_busy(void) {
-    return jobs_busy();
-}
-
-err_t tmc22xx_result(void) {
-    return jobs_raise();
-}
-
-uint32_t tmc22xx_value(unsigned index) {
-    return jobs_value(index);
-}
-
-void tmc22xx_give_up(void) {
-    jobs_give_up();
-}
-
-void tmc22xx_verify(bool on) {
-    jobs_verify(on);
-}
-
-bool tmc22xx_verifies(void) {
-    return jobs_verifies();
-}
-
 // ---- Background ---------------------------------------------------------------------------------
 
 void tmc22xx_background(void) {
-    if (jobs_busy()) {
+    if (tmc22xx_busy()) {
         jobs_step();
         return;
     }
@@ -311,7 +268,7 @@ void tmc22xx_background(void) {
 }
 
 uint64_t tmc22xx_wake_us(void) {
-    if (jobs_busy()) {
+    if (tmc22xx_busy()) {
         return exchange_wake_us();
     }
     return monitor_is_due() ? 0 : UINT64_MAX;

@@ -98,9 +98,6 @@ err_t tmc22xx_set_up(const tmc22xx_settings_t *settings);
 // Changes. A negative `hold_percent` leaves it as it is.
 err_t tmc22xx_set_current(unsigned driver, double run_ma, double hold_percent);
 
-// `reg`: that of SGTHRS, TCOOLTHRS or TPWMTHRS. Errors: the chip has none.
-err_t tmc22xx_set_threshold(unsigned driver, uint8_t reg, uint32_t value);
-
 // The fields of COOLCONF; `semin` 0 switches CoolStep off.
 typedef struct {
     uint8_t semin, semax, seup, sedn, seimin;
@@ -110,8 +107,9 @@ err_t tmc22xx_set_coolstep(unsigned driver, const tmc22xx_coolstep_t *coolstep);
 // StealthChop, above the speed of `tpwmthrs` SpreadCycle (0: at no speed); or SpreadCycle always.
 err_t tmc22xx_set_stealth(unsigned driver, bool on, uint32_t tpwmthrs);
 
-// A single register. One that is kept goes on from here when a setting changes. Errors: the chip
-// has no such register, it cannot be written, or it must not (OTP_PROG).
+// A single register, a threshold for instance. One that is kept goes on from here when a setting
+// changes. Errors: the chip has no such register, it cannot be written, it must not (OTP_PROG), or
+// the value does not fit.
 err_t tmc22xx_begin_write(unsigned driver, uint8_t reg, uint32_t value);
 
 // Reads up to TMC22XX_READS registers for tmc22xx_value().

@@ -105,6 +105,10 @@ unsigned tmc22xx_chip_bit(unsigned chip) {
     return chip == 2208 ? TMC22XX_2208 : chip == 2209 ? TMC22XX_2209 : 0;
 }
 
+unsigned tmc22xx_chip_number(unsigned chip_bit) {
+    return chip_bit == TMC22XX_2208 ? 2208 : 2209;
+}
+
 uint32_t tmc22xx_field(uint32_t value, const tmc22xx_field_t *field) {
     return (value >> field->low_bit) & (0xFFFFFFFFu >> (32 - field->bits));
 }

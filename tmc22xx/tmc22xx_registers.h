@@ -57,6 +57,9 @@ const tmc22xx_register_t *tmc22xx_register_at(unsigned address);
 // TMC22XX_2208 of 2208, TMC22XX_2209 of 2209, 0 of anything else.
 unsigned tmc22xx_chip_bit(unsigned chip);
 
+// And back, for a chip there is.
+unsigned tmc22xx_chip_number(unsigned chip_bit);
+
 // The field's part of a register's value, as it stands there, or with its sign.
 uint32_t tmc22xx_field(uint32_t value, const tmc22xx_field_t *field);
 int32_t tmc22xx_field_signed(uint32_t value, const tmc22xx_field_t *field);

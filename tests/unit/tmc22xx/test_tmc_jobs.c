@@ -108,7 +108,7 @@ static void test_blind_is_five_frames_and_nothing_else(void) {
 static void test_blind_again_is_five_frames(void) {
     tmc22xx_verify(false);
     unsigned driver = set_up(WIRE, 0);
-    succeeds(tmc22xx_set_threshold(driver, TMC22XX_REG_SGTHRS, 120));
+    succeeds(tmc22xx_begin_write(driver, TMC22XX_REG_SGTHRS, 120));
     line_expect(NULL);
     set_up(WIRE, 0);
     TEST_ASSERT_EQUAL_UINT(5, line.frame_count);
@@ -166,7 +166,7 @@ static void test_a_driver_from_an_earlier_life(void) {
 static void test_after_a_power_cut_a_set_up_restores_everything(void) {
     line_chip_t *chip = line_add(WIRE, 0);
     unsigned driver = set_up(WIRE, 0);
-    succeeds(tmc22xx_set_threshold(driver, TMC22XX_REG_SGTHRS, 120));
+    succeeds(tmc22xx_begin_write(driver, TMC22XX_REG_SGTHRS, 120));
     const tmc22xx_coolstep_t coolstep = {.semin = 5, .semax = 2};
     succeeds(tmc22xx_set_coolstep(driver, &coolstep));
     line_power_up(chip);
@@ -192,7 +192,7 @@ static void test_a_2208(void) {
     succeeds(tmc22xx_set_up(&settings));
     TEST_ASSERT_NULL(strstr(sent(), "W40")); // it has no SGTHRS
     TEST_ASSERT_NOT_NULL(strstr(sent(), "W13"));
-    refused(tmc22xx_set_threshold(0, TMC22XX_REG_SGTHRS, 1), "A TMC2208 has no SGTHRS");
+    refused(tmc22xx_begin_write(0, TMC22XX_REG_SGTHRS, 1), "A TMC2208 has no SGTHRS");
     const uint8_t sg_result = TMC22XX_REG_SG_RESULT;
     refused(tmc22xx_begin_read(0, &sg_result, 1), "A TMC2208 has no SG_RESULT");
 }
@@ -478,10 +478,10 @@ static void test_arming(void) {
     line_chip_t *y = line_add(WIRE, 1);
     line_chip_t *z = line_add(WIRE, 2);
     unsigned drivers[] = {set_up(WIRE, 0), set_up(WIRE, 1), set_up(WIRE, 2)};
-    succeeds(tmc22xx_set_threshold(drivers[0], TMC22XX_REG_SGTHRS, 50));
+    succeeds(tmc22xx_begin_write(drivers[0], TMC22XX_REG_SGTHRS, 50));
     tmc22xx_keep_threshold(drivers[0], 300, true);
     tmc22xx_keep_threshold(drivers[0], 77, false); // the user's stays
-    succeeds(tmc22xx_set_threshold(drivers[1], TMC22XX_REG_TCOOLTHRS, 200));
+    succeeds(tmc22xx_begin_write(drivers[1], TMC22XX_REG_TCOOLTHRS, 200));
     tmc22xx_keep_threshold(drivers[1], 77, false);
     tmc22xx_keep_threshold(drivers[2], 88, false);
     uint32_t all = 1u << drivers[0] | 1u << drivers[1] | 1u << drivers[2];
@@ -497,7 +497,7 @@ static void test_arming(void) {
     TEST_ASSERT_TRUE(info.armed);
     TEST_ASSERT_EQUAL_UINT32(0, info.tcoolthrs);
     TEST_ASSERT_EQUAL_UINT32(300, info.kept_tcoolthrs);
-    succeeds(tmc22xx_set_threshold(drivers[2], TMC22XX_REG_TCOOLTHRS, 44)); // for later
+    succeeds(tmc22xx_begin_write(drivers[2], TMC22XX_REG_TCOOLTHRS, 44)); // for later
     TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_begin_arm(all, false));
     line_run();
     TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_arm_result());
@@ -518,7 +518,7 @@ static void test_arming_fails_at_the_first_and_disarming_goes_on(void) {
     TEST_ASSERT_EQUAL(ERR_TMC_SILENT, tmc22xx_arm_result());
     TEST_ASSERT_EQUAL_UINT32(0, y->registers[TMC22XX_REG_TCOOLTHRS]);
     y->registers[TMC22XX_REG_TCOOLTHRS] = 300;
-    succeeds(tmc22xx_set_threshold(drivers[1], TMC22XX_REG_SGTHRS, 9));
+    succeeds(tmc22xx_begin_write(drivers[1], TMC22XX_REG_SGTHRS, 9));
     TEST_ASSERT_EQUAL(ERR_TMC_SILENT, tmc22xx_arm_result()); // not a statement's
     TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_begin_arm(3, false));
     line_run();
@@ -533,7 +533,7 @@ static void test_blind_arming_tells_the_threshold_of_a_stall_again(void) {
     line_chip_t *chip = line_add(WIRE, 0);
     tmc22xx_verify(false);
     unsigned driver = set_up(WIRE, 0);
-    succeeds(tmc22xx_set_threshold(driver, TMC22XX_REG_SGTHRS, 50));
+    succeeds(tmc22xx_begin_write(driver, TMC22XX_REG_SGTHRS, 50));
     tmc22xx_keep_threshold(driver, 300, true);
     line_power_up(chip);
     TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_begin_arm(1u << driver, true));
