@@ -4,6 +4,7 @@
 #include "basic_cmds/tmc_homing.h"
 
 #include "basic_cmds/report.h"
+#include "basic_cmds/tmc_homing.h"
 #include "stepper/stepper.h"
 
 // Somebody has used drivers since RUN. Without any, the background of each statement costs nothing.
@@ -214,6 +215,7 @@ static __attribute__((noinline)) void tend(void) {
     char text[ERR_MESSAGE_SIZE];
     if (tmc22xx_next_event(text, sizeof text)) {
         basic_notice("%s", text);
+        tmc_homing_look();
     }
     if (tmc22xx_wake_us() != UINT64_MAX) {
         basic_wake_at(tmc22xx_wake_us());

@@ -103,10 +103,20 @@ static uint32_t choose(uint32_t axes) {
     return drivers;
 }
 
+// Those that are armed, or may be.
+static uint32_t armed(void) {
+    uint32_t drivers = 0;
+    for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
+        tmc22xx_info_t info;
+        drivers |= tmc22xx_info(driver, &info) && info.armed ? 1u << driver : 0;
+    }
+    return drivers;
+}
+
 // ---- The hook -----------------------------------------------------------------------------------
 
 static stepper_arm_t begin(uint32_t axes, bool on) {
-    arming.drivers = on ? choose(axes) : arming.drivers; // those closed meanwhile do not matter
+    arming.drivers = on ? choose(axes) : arming.drivers & armed();
     if (arming.drivers == 0) {
         return STEPPER_ARM_DONE;
     }
@@ -129,7 +139,16 @@ static stepper_arm_t take_on(uint32_t axes, bool on) {
         return begin(axes, on);
     }
     arming.drivers = on ? arming.drivers : 0;
-    return tmc22xx_arm_result() == ERR_OK ? STEPPER_ARM_DONE : STEPPER_ARM_FAILED;
+    err_t err = tmc22xx_arm_result();
+    if (err == ERR_OK) {
+        return STEPPER_ARM_DONE;
+    }
+    if (!on && err != ERR_TMC_LOST) { // that has switched StallGuard off, too
+        err_kept_t why;
+        err_keep(&why);
+        err_raise(ERR_TMC_STILL_ARMED, "%s", why.text);
+    }
+    return STEPPER_ARM_FAILED;
 }
 
 static stepper_arm_t arm(uint32_t axes, bool on) {
@@ -139,11 +158,22 @@ static stepper_arm_t arm(uint32_t axes, bool on) {
     err_kept_t kept; // the statement in the foreground may be about to tell its error
     err_keep(&kept);
     stepper_arm_t answer = take_on(axes, on);
-    if (answer == STEPPER_ARM_FAILED) {
-        basic_notice("StallGuard is not switched off: %s", err_message());
+    if (answer == STEPPER_ARM_FAILED && err_code() != ERR_TMC_LOST) { // that the monitor tells
+        basic_notice("%s", err_message());
     }
     err_put_back(&kept);
     return answer;
+}
+
+// A driver that is armed and has lost its settings finds no end of its axis.
+void tmc_homing_look(void) {
+    for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
+        tmc22xx_info_t info;
+        bool homes = stepper_cycle() == STEPPER_CYCLE_HOMING && tmc22xx_info(driver, &info);
+        if (homes && info.armed && info.lost) {
+            stepper_stop();
+        }
+    }
 }
 
 // ---- Before wires are closed --------------------------------------------------------------------

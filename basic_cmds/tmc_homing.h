@@ -14,4 +14,8 @@ err_t tmc_homing_await(void);
 // The same behind the end of all motion, whoever presses keys.
 void tmc_homing_finish(void);
 
+// Something was told about a driver: homing that relies on it stops, rather than run into the end
+// of an axis.
+void tmc_homing_look(void);
+
 #endif

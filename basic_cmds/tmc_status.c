@@ -42,10 +42,9 @@ static void print_settings(const tmc22xx_settings_t *settings, const tmc22xx_inf
         basic_printf(", TCOOLTHRS %u, SGTHRS %u", (unsigned)info->tcoolthrs, info->sgthrs);
     }
     if (info->kept_tcoolthrs != 0) {
-        basic_printf("; for homing TCOOLTHRS %u%s", (unsigned)info->kept_tcoolthrs,
-                     info->armed ? ", ARMED" : "");
+        basic_printf("; for homing TCOOLTHRS %u", (unsigned)info->kept_tcoolthrs);
     }
-    basic_printf("\n");
+    basic_printf("%s\n", info->armed ? ", ARMED" : "");
 }
 
 // ---- What it says -------------------------------------------------------------------------------

@@ -201,6 +201,7 @@ void access_turn_to(unsigned wire, uint8_t address, bool knows_resets) {
     access.address = address;
     access.knows_resets = knows_resets;
     access.counted = false;
+    access.repeats = 0; // those for another driver, which nobody took
 }
 
 static void begin(uint8_t reg, uint32_t value) {

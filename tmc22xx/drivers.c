@@ -210,7 +210,7 @@ bool tmc22xx_info(unsigned driver, tmc22xx_info_t *info) {
     *info = (tmc22xx_info_t){
         .axis = entry->axis,
         .listens = entry->listens,
-        .armed = entry->armed,
+        .armed = entry->armed || (entry->dirty & 1u << KEPT_TCOOLTHRS) != 0,
         .lost = (entry->conditions & DRIVERS_LOST) != 0,
         .rx_gpio = wire->rx_gpio,
         .baud = wire->baud,

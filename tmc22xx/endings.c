@@ -66,6 +66,24 @@ static void commit(void) {
     drivers_put(job.driver, &job.entry);
 }
 
+// Writes what the driver should have to those registers that may have something else.
+static void restore(uint16_t registers) {
+    job.entry = *job_driver();
+    job.pending = registers;
+    phases_enter(PHASES_RESTORE);
+}
+
+// A driver that answers again gets what it could not be told: StallGuard that is off, for instance.
+static void end_monitor(void) {
+    driver_t *entry = job_driver();
+    monitor_note(entry, job.look[0], job.look[1]);
+    if (entry->dirty != 0 && (entry->conditions & DRIVERS_LOST) == 0) {
+        restore(entry->dirty);
+    } else {
+        endings_finish();
+    }
+}
+
 void endings_succeed(void) {
     if (job.kind == JOB_READ || job.kind == JOB_MONITOR) {
         note_way(job_driver());
@@ -76,9 +94,8 @@ void endings_succeed(void) {
         monitor_note_answer(job_driver());
     }
     if (job.kind == JOB_MONITOR) {
-        monitor_note(job_driver(), job.look[0], job.look[1]);
-    }
-    if (job.kind != JOB_ARM || !jobs_turn_to_next_armed()) {
+        end_monitor();
+    } else if (job.kind != JOB_ARM || !jobs_turn_to_next_armed()) {
         endings_finish();
     }
 }
@@ -92,13 +109,30 @@ static void give_driver_up(void) {
     }
 }
 
+static bool is_of_wire(uint8_t fault) {
+    return fault == ACCESS_SILENT || fault == ACCESS_GARBLED || fault == ACCESS_HELD_LOW ||
+           fault == ACCESS_NOT_TAKEN;
+}
+
+// A driver that may be armed is, until disarming has told. One that cannot be disarmed is not to be
+// armed by any later job: the next one puts that right.
+static void note_arming(driver_t *entry) {
+    if (!job.on) {
+        entry->armed = false;
+        entry->dirty |= 1u << KEPT_TCOOLTHRS;
+    } else if ((job.touched & 1u << KEPT_TCOOLTHRS) != 0) {
+        entry->armed = true;
+    }
+}
+
 static void note_failure(driver_t *entry, uint8_t fault) {
     note_way(entry);
-    entry->failures = (uint16_t)(entry->failures + (fault != ACCESS_CANCELLED));
+    entry->failures = (uint16_t)(entry->failures + is_of_wire(fault));
     entry->dirty |= job.touched;
-    monitor_note_failure(entry, fault, job.kind == JOB_MONITOR);
-    if (job.kind == JOB_ARM && (job.touched & 1u << KEPT_TCOOLTHRS) != 0) {
-        entry->armed |= job.on; // perhaps; disarming will tell
+    bool nobody_asked = job.kind == JOB_ARM && !job.on && fault == ACCESS_LOST;
+    monitor_note_failure(entry, fault, job.kind == JOB_MONITOR || nobody_asked);
+    if (job.kind == JOB_ARM) {
+        note_arming(entry);
     }
 }
 
@@ -118,9 +152,7 @@ void endings_fail(uint8_t fault) {
         job.next = 0;
         phases_enter(PHASES_KNOCK);
     } else if (can_restore(fault)) {
-        job.entry = *job_driver();
-        job.pending = job.touched;
-        phases_enter(PHASES_RESTORE);
+        restore(job.touched);
     } else {
         give_driver_up();
     }

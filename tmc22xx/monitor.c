@@ -51,7 +51,7 @@ void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor) {
     uint8_t condition = 0;
     if (fault == ACCESS_LOST) {
         condition = DRIVERS_LOST;
-    } else if (fault == ACCESS_SILENT || fault == ACCESS_HELD_LOW) {
+    } else if (fault == ACCESS_SILENT || fault == ACCESS_HELD_LOW || fault == ACCESS_GARBLED) {
         condition = DRIVERS_SILENT;
     }
     entry->conditions |= condition;

@@ -55,7 +55,7 @@ const tmc22xx_settings_t *tmc22xx_driver(unsigned driver);
 typedef struct {
     uint8_t axis; // TMC22XX_NO_AXIS: none
     bool listens; // was set up with verification, so it can answer
-    bool armed;   // by tmc22xx_begin_arm()
+    bool armed;   // by tmc22xx_begin_arm(); or perhaps, since it could not be told to be not
     bool lost;    // it has lost its settings, as far as is known
     uint8_t rx_gpio;
     uint32_t baud;

@@ -202,8 +202,44 @@ def test_a_driver_that_is_gone_when_it_is_to_be_disarmed(tmp_path: Path) -> None
     ready = [line for line in ready if line != DRIVERS[1]]
     at = session(tmp_path, *ready, *lines, machine=machine)
     assert len(at.errors()) == 1
-    assert at.errors()[0].startswith("Homing X failed: No answer from address 0 on GP5")
+    said = "Homing X failed: StallGuard is not switched off: No answer from address 0 on GP5"
+    assert at.errors()[0].startswith(said)
     assert at.number() == 0
+
+
+def test_a_driver_that_could_not_be_armed_needs_no_disarming(tmp_path: Path) -> None:
+    """It is gone before homing begins: one error, and nothing about StallGuard that is still on."""
+    machine = with_fault("unplugged@500")
+    lines = ["TMC22xx MONITOR 0", "PAUSE 600", HOME_X, "PAUSE 500"]
+    at = session(tmp_path, *READY, *lines, machine=machine)
+    assert at.errors()[0].startswith("Homing X failed: No answer from address 0 on GP5")
+    assert "StallGuard" not in at.output
+
+
+@pytest.mark.parametrize("monitor", [0, 1])
+def test_one_that_could_not_be_disarmed_is_later(monitor: int, tmp_path: Path) -> None:
+    """The monitor does it when the driver answers again, otherwise whatever is written next."""
+    machine = [*AXES, f"{X_DRIVER} fault=unplugged@850-3000", Y_DRIVER]
+    lines = ["STEPPER HOME RUN X", "PAUSE 300", "STEPPER ESTOP", "PAUSE 3000", "PAUSE 100"]
+    then = ["TMC22xx STATUS X"] if monitor else ["TMC22xx STATUS X", "TMC22xx CURRENT X,700"]
+    switch = f"TMC22xx MONITOR {monitor}"
+    at = session(tmp_path, *READY, switch, "PAUSE 600", *lines, *then, machine=machine)
+    assert armed(at)[-1] == 0
+    assert at.report.register("TCOOLTHRS") == 0
+    assert ("ARMED" in at.output) == (monitor == 0)
+
+
+def test_a_driver_that_loses_its_settings_in_the_approach(tmp_path: Path) -> None:
+    """It would find no end; homing stops as soon as that is known, and a set-up does not arm it."""
+    machine = [AXES[0].replace(f"{END}", "-80000"), AXES[1]]
+    machine += [f"{X_DRIVER} fault=brown-out@1500", Y_DRIVER]
+    lines = ["PAUSE 600", HOME_X, "PAUSE 1000", DRIVERS[0], KNOWN]
+    at = session(tmp_path, *READY, *lines, machine=machine)
+    assert at.errors() == ["Homing X stopped while approaching the switch"]
+    assert at.output.count("has lost its settings") == 1
+    assert at.number() == 0
+    assert steps(at)[0] < 80 * 200  # of the 1000 mm that it may search
+    assert at.report.register("TCOOLTHRS") == 0
 
 
 @pytest.mark.parametrize("stop", ["STEPPER STOP", "STEPPER ESTOP"])

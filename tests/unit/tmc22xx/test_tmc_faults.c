@@ -163,7 +163,7 @@ static void check_failure(unsigned job, const driver_t *before, err_t err) {
 
 // When the wire is well again all can be mended: by a set-up if the driver was reset, otherwise by
 // any change.
-static void check_mended(void) {
+static void check_mended(unsigned job) {
     line_expect(NULL);
     line.time_us += 100000; // nothing comes late any more
     bool exists = drivers_get(driver) != NULL;
@@ -174,6 +174,9 @@ static void check_mended(void) {
     err_t err = run(lost || !exists ? JOB_NEW : JOB_CURRENT);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("", err == ERR_OK ? "" : err_message(), where);
     check_chip_is(drivers_get(driver));
+    if (job == JOB_DISARM) { // what could not be disarmed is by whatever comes next
+        TEST_ASSERT_EQUAL_HEX32_MESSAGE(0, chips[driver]->registers[TMC22XX_REG_TCOOLTHRS], where);
+    }
     TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, run(JOB_DISARM), where);
     check_chip_is(drivers_get(driver));
 }
@@ -212,7 +215,7 @@ static void one(unsigned job, uint8_t ifcnt, bool must_succeed) {
             check_read();
         }
     }
-    check_mended();
+    check_mended(job);
 }
 
 static void count_clean_frames(void) {

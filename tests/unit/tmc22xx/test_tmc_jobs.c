@@ -439,6 +439,26 @@ static void test_a_wire_with_two_pins(void) {
     TEST_ASSERT_EQUAL(ERR_ARGUMENT, tmc22xx_wire(WIRE, WIRE, 9599));
 }
 
+// What goes wrong with one driver does not count for another.
+static void test_the_counters_of_a_driver(void) {
+    line_add(WIRE, 0);
+    unsigned driver = set_up(WIRE, 0);
+    tmc22xx_settings_t other = at(WIRE, 3); // there is none
+    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_set_up(&other));
+    line_run();
+    TEST_ASSERT_EQUAL(ERR_TMC_SILENT, tmc22xx_result());
+    other = at(WIRE, 0);
+    other.chip = 2208;
+    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_set_up(&other));
+    line_run();
+    TEST_ASSERT_EQUAL(ERR_TMC_WRONG_CHIP, tmc22xx_result());
+    succeeds(tmc22xx_set_current(driver, 500, -1));
+    tmc22xx_info_t info;
+    TEST_ASSERT_TRUE(tmc22xx_info(driver, &info));
+    TEST_ASSERT_EQUAL_UINT16(0, info.repeats);
+    TEST_ASSERT_EQUAL_UINT16(0, info.failures);
+}
+
 static void test_no_more_than_eight(void) {
     for (uint8_t i = 0; i < 8; i++) {
         line_add((uint8_t)(10 + i / 4), i % 4);
@@ -589,6 +609,7 @@ int main(void) {
     RUN_TEST(test_one_job_at_a_time);
     RUN_TEST(test_two_wires_and_two_addresses);
     RUN_TEST(test_a_wire_with_two_pins);
+    RUN_TEST(test_the_counters_of_a_driver);
     RUN_TEST(test_no_more_than_eight);
     RUN_TEST(test_a_wire_that_closes_under_a_job);
     RUN_TEST(test_arming);

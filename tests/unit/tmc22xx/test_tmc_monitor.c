@@ -207,6 +207,42 @@ static void test_silent_and_back(void) {
     tells_nothing();
 }
 
+static line_fault_t all_bad(size_t frame) {
+    (void)frame;
+    return LINE_BAD_CRC;
+}
+
+static void test_answers_that_cannot_be_read(void) {
+    line_expect(all_bad);
+    pass(3 * SECOND_US);
+    tells(NAME "does not answer any more: check its supply and the wire");
+    line_expect(NULL);
+    pass(3 * SECOND_US);
+    tells(NAME "answers again");
+}
+
+// A driver that was away when it was to be disarmed does not stay armed.
+static void test_disarmed_when_it_answers_again(void) {
+    tmc22xx_keep_threshold(driver, 300, true);
+    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_begin_arm(1u << driver, true));
+    line_run();
+    chip->gone = true;
+    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_begin_arm(1u << driver, false));
+    line_run();
+    TEST_ASSERT_EQUAL(ERR_TMC_SILENT, tmc22xx_arm_result());
+    tmc22xx_info_t info;
+    TEST_ASSERT_TRUE(tmc22xx_info(driver, &info));
+    TEST_ASSERT_TRUE(info.armed);
+    TEST_ASSERT_EQUAL_UINT32(300, chip->registers[TMC22XX_REG_TCOOLTHRS]);
+    chip->gone = false;
+    pass(3 * SECOND_US);
+    TEST_ASSERT_EQUAL_UINT32(0, chip->registers[TMC22XX_REG_TCOOLTHRS]);
+    TEST_ASSERT_TRUE(tmc22xx_info(driver, &info));
+    TEST_ASSERT_FALSE(info.armed);
+    tells(NAME "answers again");
+    tells_nothing();
+}
+
 // The statement goes first at the next turn, and what it has read stays.
 static void test_a_statement_and_the_monitor(void) {
     chip->registers[TMC22XX_REG_SG_RESULT] = 123;
@@ -255,6 +291,8 @@ int main(void) {
     RUN_TEST(test_lost_settings);
     RUN_TEST(test_lost_settings_that_a_statement_found);
     RUN_TEST(test_silent_and_back);
+    RUN_TEST(test_answers_that_cannot_be_read);
+    RUN_TEST(test_disarmed_when_it_answers_again);
     RUN_TEST(test_a_statement_and_the_monitor);
     RUN_TEST(test_tied_under_way);
     return UNITY_END();
