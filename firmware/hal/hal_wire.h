@@ -19,8 +19,9 @@
 
 // How long an exchange may last, in bit times: the line has to be idle for a while before something
 // is sent that is to be answered (else it counts as held), the reply may begin so long behind the
-// request, and its bytes follow each other without a pause.
-#define HAL_WIRE_IDLE_BITS 11u
+// request, and its bytes follow each other without a pause. A driver that has seen something wrong
+// on the line listens again when it has been idle for 12 bit times.
+#define HAL_WIRE_IDLE_BITS 13u
 #define HAL_WIRE_HELD_BITS 110u
 #define HAL_WIRE_REPLY_EARLIEST_BITS 8u
 #define HAL_WIRE_REPLY_LATEST_BITS 128u

@@ -195,3 +195,19 @@ def test_a_stall_is_seen_on_both_ways(board: Emulator) -> None:
     assert int(board.command("PRINT PEEK(TMC 0,SG)").split()[-1]) == free
     assert board.tmc_motor("D")["slips"] > 0
     assert "underruns: 0" in board.command("STEPPER STATUS")
+
+
+@pytest.mark.parametrize("for_us", [450, 500, 550])
+def test_a_line_that_was_held_is_idle_for_long_enough(board: Emulator, for_us: int) -> None:
+    """A driver without power holds the line; the other one hears what is sent after that."""
+    board.add_tmc2209("D", 5)
+    board.add_tmc2209("E", 5, address=1)
+    board.command("TMC22xx GP5,2209,0,800,30,16", timeout_ms=5000)
+    board.command("TMC22xx MONITOR 0")
+    board.run_ms(50)
+    board.tmc_log()
+    board.send("PRINT PEEK(TMC 0,IFCNT)\r")
+    board.tmc_fault("unpowered", "E", for_ms=for_us / 1e3)
+    assert int(board.until("\n> ").split()[-1]) == board.tmc("D")["IFCNT"]
+    asked = [entry for entry in board.tmc_log() if entry.get("register") == 0x02]
+    assert ["value" in entry for entry in asked] == [True]

@@ -169,7 +169,7 @@ def test_held_single_pin_is_let_go_of(board: Emulator) -> None:
 
 
 def test_busy_line_is_waited_for(board: Emulator) -> None:
-    """Something left over is on the line: nothing is sent before it has been idle for 11 bits."""
+    """Something left over is on the line: nothing is sent before it has been idle for 13 bits."""
     wire = Wire(board)
     assert wire.answered(8) == ("done", REPLY)
     board.clear_edges()
@@ -180,7 +180,7 @@ def test_busy_line_is_waited_for(board: Emulator) -> None:
     wire.post("e", 8, *REQUEST)
     board.run_ms(1)
     idle_bits = (wire.edges()[0][0] - begin_ns) / wire.bits_ns(1) - 59
-    assert 11 < idle_bits < 15
+    assert 13 < idle_bits < 17
     wire.result()
 
 
