@@ -285,7 +285,8 @@ class Oracle:
             where = re.match(r"TMC2209 at address (\d) on GP(\d+) .* has lost", notice)
             told = where and (int(where[1]), int(where[2]))
             self.told |= {d.name for d in self.drivers if (d.address, d.pin) == told}
-        if was_reset(frames) and driver.name not in self.told:
+        whole = [] if self.disturbed else [entry for entry in frames if "fault" not in entry]
+        if was_reset(whole) and driver.name not in self.told:
             self.untold.setdefault(driver.name, 0)
         if line.error is not None and "lost" in line.error:
             self.told.add(driver.name)
