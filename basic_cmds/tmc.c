@@ -1,11 +1,8 @@
 // TMC22xx: set-up of drivers, WIRE, AXIS, VERIFY, MONITOR, CLOSE. Context: main loop.
 #include "basic_cmds/tmc.h"
 
-#include "basic_cmds/tmc_homing.h"
-
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc_homing.h"
-#include "stepper/stepper.h"
 
 // Somebody has used drivers since RUN. Without any, the background of each statement costs nothing.
 static bool in_use;
@@ -69,6 +66,20 @@ err_t tmc_find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fou
 err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {
     err_t err = tmc_await_turn(); // first: whoever closes a wire has his turn as well
     return err != ERR_OK ? err : tmc_find(driver, wire, found);
+}
+
+uint32_t tmc_tstep(unsigned driver, double feed) {
+    tmc22xx_info_t info;
+    stepper_axis_t config;
+    tmc22xx_info(driver, &info);
+    stepper_axis_config((axis_id_t)info.axis, &config);
+    return tmc22xx_tstep(feed / 60.0 * config.steps_per_unit, tmc22xx_driver(driver)->microsteps);
+}
+
+bool tmc_is_stealthy(unsigned driver, double feed) {
+    tmc22xx_info_t info;
+    tmc22xx_info(driver, &info);
+    return tmc22xx_driver(driver)->stealth && tmc_tstep(driver, feed) > info.tpwmthrs;
 }
 
 err_t tmc_check_still(const char *what) {

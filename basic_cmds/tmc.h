@@ -4,14 +4,13 @@
 #define BASIC_CMDS_TMC_H
 
 #include "basic/basic.h"
+#include "stepper/stepper.h"
 #include "tmc22xx/tmc22xx.h"
 
 // A driver by its address or by its axis, and the first of these among the choices.
 #define TMC_AXES "X|Y|Z|A"
 #define TMC_DRIVERS "0|1|2|3|" TMC_AXES
 #define TMC_FIRST_AXIS 4
-#define TMC_BAUD_MIN 9600
-#define TMC_BAUD_MAX 500000
 
 // Where each argument stands in the row's spec.
 enum {
@@ -50,6 +49,12 @@ err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fo
 // Waits for the end of the job that was begun with this result, and returns how it ended. Ctrl-C
 // gives it up.
 err_t tmc_finish(err_t begun);
+
+// TSTEP at a feed (units/min) of a driver that is tied to a configured axis.
+uint32_t tmc_tstep(unsigned driver, double feed);
+
+// The same driver is in StealthChop at this feed: StallGuard needs it.
+bool tmc_is_stealthy(unsigned driver, double feed);
 
 // Tells if the driver cannot give the current that was asked for.
 void tmc_warn_of_current(unsigned driver);

@@ -3,13 +3,8 @@
 // TMC2209 in StealthChop with a threshold SGTHRS; all others find no stall. Context: main loop.
 #include "basic_cmds/tmc_homing.h"
 
-#include "basic/basic.h"
+#include "basic_cmds/tmc.h"
 #include "stepper/stepper_homing.h"
-#include "tmc22xx/tmc22xx.h"
-
-// Without a threshold of the user's a stall is looked for from this part of the seek feed on: so
-// the approach is above it with room to spare, and most of its ramp below.
-#define FEED_PART 0.6
 
 #define LOOK_US 1000u
 
@@ -28,12 +23,6 @@ static bool is_of(unsigned driver, uint32_t axes, tmc22xx_info_t *info) {
 
 static bool finds_stalls(const tmc22xx_settings_t *settings, const tmc22xx_info_t *info) {
     return settings->chip == 2209 && settings->stealth && info->sgthrs > 0;
-}
-
-static uint32_t tstep_at(axis_id_t axis, double feed, unsigned microsteps) {
-    stepper_axis_t config;
-    stepper_axis_config(axis, &config);
-    return tmc22xx_tstep(feed / 60.0 * config.steps_per_unit, microsteps);
 }
 
 static err_t raise(const tmc22xx_info_t *info, const char *needs) {
@@ -57,15 +46,15 @@ static err_t check_driver(unsigned driver, const tmc22xx_info_t *info) {
     }
     stepper_home_t home;
     stepper_home_settings(axis, &home);
-    uint32_t tstep = tstep_at(axis, home.seek, settings->microsteps);
     uint32_t wanted = info->kept_tcoolthrs != 0 ? info->kept_tcoolthrs : info->tcoolthrs;
-    if (!settings->stealth || tstep <= info->tpwmthrs) {
+    if (!tmc_is_stealthy(driver, home.seek)) {
         return raise(info, "StealthChop");
     }
     if (info->sgthrs == 0) {
         return raise(info, "TMC22xx SGTHRS");
     }
-    return wanted != 0 && tstep > wanted ? raise_too_slow(info, home.seek) : ERR_OK;
+    bool too_slow = wanted != 0 && tmc_tstep(driver, home.seek) > wanted;
+    return too_slow ? raise_too_slow(info, home.seek) : ERR_OK;
 }
 
 // An axis that would run against its end without noticing is refused before anything moves.
@@ -82,10 +71,10 @@ static err_t check(uint32_t axes) {
 
 // Of the first approach: SG_RESULT is smaller at a lower speed, so what fits the seek feed would
 // take a slow second one for a stall right away.
-static uint32_t homing_tstep(axis_id_t axis, unsigned microsteps) {
+static uint32_t homing_tstep(unsigned driver, unsigned axis) {
     stepper_home_t home;
-    stepper_home_settings(axis, &home);
-    return tstep_at(axis, FEED_PART * home.seek, microsteps);
+    stepper_home_settings((axis_id_t)axis, &home);
+    return tmc_tstep(driver, TMC_HOMING_FEED_PART * home.seek);
 }
 
 // The drivers to be armed, each with a threshold.
@@ -93,10 +82,8 @@ static uint32_t choose(uint32_t axes) {
     uint32_t drivers = 0;
     for (unsigned driver = 0; driver < TMC22XX_DRIVERS; driver++) {
         tmc22xx_info_t info;
-        const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
-        if (is_of(driver, axes, &info) && finds_stalls(settings, &info)) {
-            uint32_t tstep = homing_tstep((axis_id_t)info.axis, settings->microsteps);
-            tmc22xx_keep_threshold(driver, tstep, false);
+        if (is_of(driver, axes, &info) && finds_stalls(tmc22xx_driver(driver), &info)) {
+            tmc22xx_keep_threshold(driver, homing_tstep(driver, info.axis), false);
             drivers |= 1u << driver;
         }
     }

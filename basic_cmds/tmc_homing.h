@@ -4,6 +4,10 @@
 
 #include "base/base.h"
 
+// Without a threshold of the user's a stall is looked for from this part of the seek feed on: so
+// the approach is above it with room to spare, and most of its ramp below.
+#define TMC_HOMING_FEED_PART 0.6
+
 // From now on homing arms the drivers that are tied to the axes it homes.
 void tmc_homing_start(void);
 

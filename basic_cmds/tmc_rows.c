@@ -20,14 +20,16 @@ static const basic_arg_spec_t set_up_args[TMC_SET_UP_ARGS] = {
     [TMC_SET_UP_CHIP] = {"chip_type", BASIC_ARG_CHOICE, .choices = TMC_CHIPS, .help = "the chip"},
     [TMC_SET_UP_ADDRESS] = {"address", BASIC_ARG_INTEGER, .min = 0, .max = 3,
                             .help = "by MS1 and MS2 of a TMC2209; 0 for a TMC2208"},
-    [TMC_SET_UP_RUN] = {"run_mA", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = 2000, .unit = "mA RMS",
-                        .help = "current of a coil in motion"},
+    [TMC_SET_UP_RUN] = {"run_mA", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = TMC22XX_RUN_MA_MAX,
+                        .unit = "mA RMS", .help = "current of a coil in motion"},
     [TMC_SET_UP_HOLD] = {"hold_pct", BASIC_ARG_NUMBER, .min = 0, .max = 100, .unit = "%",
                          .help = "part of it that holds the motor at standstill"},
     [TMC_SET_UP_MICROSTEPS] = {"microsteps", BASIC_ARG_CHOICE, .choices = TMC_MICROSTEPS,
                                .help = "to a full step; interpolated to 256"},
-    [TMC_SET_UP_R_SENSE] = {"r_sense_ohm", BASIC_ARG_NUMBER, DEFAULTS, .min = 0.08, .max = 0.2,
-                            .fallback = 0.11, .unit = "ohm", .help = "resistors of the module"},
+    [TMC_SET_UP_R_SENSE] = {"r_sense_ohm", BASIC_ARG_NUMBER, DEFAULTS,
+                            .min = TMC22XX_R_SENSE_MIN_OHM, .max = TMC22XX_R_SENSE_MAX_OHM,
+                            .fallback = TMC22XX_R_SENSE_OHM, .unit = "ohm",
+                            .help = "resistors of the module"},
     [TMC_SET_UP_STEALTH] = {"stealthchop", BASIC_ARG_INTEGER, DEFAULTS, .min = 0, .max = 1,
                             .fallback = 1, .help = "1: StealthChop, 0: SpreadCycle"},
 };
@@ -35,13 +37,13 @@ static const basic_arg_spec_t set_up_args[TMC_SET_UP_ARGS] = {
 static const basic_arg_spec_t wire_args[] = {
     {"tx_pin", BASIC_ARG_PIN, .help = "the pin that sends"},
     {"rx_pin", BASIC_ARG_PIN, OPTIONAL, .help = "the pin that listens; left out: tx_pin does both"},
-    {"baud", BASIC_ARG_INTEGER, DEFAULTS, .min = TMC_BAUD_MIN, .max = TMC_BAUD_MAX,
-     .fallback = 115200, .unit = "bit/s", .help = "the drivers find it out by themselves"},
+    {"baud", BASIC_ARG_INTEGER, DEFAULTS, .min = TMC22XX_BAUD_MIN, .max = TMC22XX_BAUD_MAX,
+     .fallback = TMC22XX_BAUD, .unit = "bit/s", .help = "the drivers find it out by themselves"},
 };
 
 static const basic_arg_spec_t current_args[] = {
     DRIVER_ARG,
-    {"run_mA", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = 2000, .unit = "mA RMS",
+    {"run_mA", BASIC_ARG_NUMBER, ABOVE, .min = 0, .max = TMC22XX_RUN_MA_MAX, .unit = "mA RMS",
      .help = "current of a coil in motion"},
     {"hold_pct", BASIC_ARG_NUMBER, OPTIONAL, .min = 0, .max = 100, .unit = "%",
      .help = "part of it at standstill; left out: as it is"},

@@ -8,6 +8,7 @@
 #include "basic_cmds/job.h"
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc.h"
+#include "basic_cmds/tmc_homing.h"
 #include "stepper/rules.h"
 #include "stepper/stepper_check.h"
 #include "stepper/stepper_homing.h"
@@ -29,8 +30,6 @@
 #define SGTHRS_MAX 255u
 // Below this the difference to a stall, which is near 0, is lost in the noise of single readings.
 #define LOWEST_USABLE 30u
-// From this part of the feed on a stall is told: the one that homing chooses by itself.
-#define STALL_PART 0.6
 #define SEEK_DIFFERS 0.1 // of the feed: homing at another one gives other values
 
 typedef struct {
@@ -41,13 +40,13 @@ typedef struct {
 typedef struct {
     unsigned driver;
     axis_id_t axis;
-    double steps_per_unit, full_step; // of the axis; its units
-    uint64_t begin_us, row_us;        // of the jog, of this row
-    uint64_t constant_us;             // since when the speed is constant
-    double top;                       // highest speed so far, units/min
-    double speed;                     // and the last one
-    uint32_t sg_result, cs;           // the last ones
-    readings_t row, constant;         // of this row; at constant speed
+    double full_step;          // in units of the axis
+    uint64_t begin_us, row_us; // of the jog, of this row
+    uint64_t constant_us;      // since when the speed is constant
+    double top;                // highest speed so far, units/min
+    double speed;              // and the last one
+    uint32_t sg_result, cs;    // the last ones
+    readings_t row, constant;  // of this row; at constant speed
 } tune_t;
 
 // To the last step.
@@ -77,25 +76,9 @@ static err_t take_driver(tune_t *tune) {
     err_t err = stepper_check_axis(tune->axis);
     if (err == ERR_OK) {
         stepper_axis_config(tune->axis, &config);
-        tune->steps_per_unit = config.steps_per_unit;
         tune->full_step = settings->microsteps / config.steps_per_unit;
     }
     return err;
-}
-
-static uint32_t tstep_at(const tune_t *tune, double feed) {
-    return tmc22xx_tstep(feed / 60.0 * tune->steps_per_unit,
-                         tmc22xx_driver(tune->driver)->microsteps);
-}
-
-static err_t check_stealth(const tune_t *tune, double feed) {
-    tmc22xx_info_t info;
-    tmc22xx_info(tune->driver, &info);
-    if (!tmc22xx_driver(tune->driver)->stealth || tstep_at(tune, feed) <= info.tpwmthrs) {
-        return err_raise(ERR_TMC_SGTUNE,
-                         "StallGuard needs StealthChop at this feed (TMC22xx STEALTH)");
-    }
-    return ERR_OK;
 }
 
 static err_t prepare(tune_t *tune, const basic_arg_t *args) {
@@ -103,8 +86,9 @@ static err_t prepare(tune_t *tune, const basic_arg_t *args) {
     if (err == ERR_OK) {
         err = take_driver(tune);
     }
-    if (err == ERR_OK) {
-        err = check_stealth(tune, args[SGTUNE_FEED].number);
+    if (err == ERR_OK && !tmc_is_stealthy(tune->driver, args[SGTUNE_FEED].number)) {
+        err = err_raise(ERR_TMC_SGTUNE,
+                        "StallGuard needs StealthChop at this feed (TMC22xx STEALTH)");
     }
     if (err == ERR_OK) {
         err = job_check_free();
@@ -246,12 +230,12 @@ static void propose(const tune_t *tune) {
     const char *unit = report_unit(tune->axis);
     uint32_t sgthrs = constant->lowest / SGTHRS_DIVISOR;
     sgthrs = sgthrs > SGTHRS_MAX ? SGTHRS_MAX : sgthrs;
-    double feed = round(STALL_PART * tune->top);
+    double feed = round(TMC_HOMING_FEED_PART * tune->top);
     basic_printf("At %.0f %s/min: SG_RESULT %u lowest, %.0f mean of %u readings\n", tune->top, unit,
                  (unsigned)constant->lowest, mean(constant), constant->count);
     basic_printf("Proposal: a stall is SG_RESULT at or below %u, from %.0f %s/min on (TCOOLTHRS "
                  "%u)\n",
-                 (unsigned)(2 * sgthrs), feed, unit, (unsigned)tstep_at(tune, feed));
+                 (unsigned)(2 * sgthrs), feed, unit, (unsigned)tmc_tstep(tune->driver, feed));
     print_command(tune, "SGTHRS", sgthrs);
     print_command(tune, "STALL", feed);
     hint_at_seek(tune);

@@ -3,7 +3,6 @@
 
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc.h"
-#include "stepper/stepper.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
 // What is read, in the order in which the values come. A TMC2208 lacks the last one.

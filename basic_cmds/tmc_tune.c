@@ -3,7 +3,6 @@
 
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc.h"
-#include "stepper/stepper.h"
 #include "stepper/stepper_check.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
@@ -66,9 +65,7 @@ static err_t tstep_at(unsigned driver, double feed, uint32_t *tstep) {
                          "feed: %.9g is invalid (valid is above 0 to %.9g, the max_vel of %c)",
                          feed, config.max_velocity, STEPPER_AXIS_LETTERS[axis]);
     }
-    double steps_per_s = feed / 60.0 * config.steps_per_unit;
-    unsigned microsteps = tmc22xx_driver(driver)->microsteps;
-    *tstep = feed > 0.0 ? tmc22xx_tstep(steps_per_s, microsteps) : 0;
+    *tstep = feed > 0.0 ? tmc_tstep(driver, feed) : 0;
     return ERR_OK;
 }
 

@@ -23,6 +23,8 @@
 #define TMC22XX_NO_AXIS 0xFFu
 #define TMC22XX_READS 8u // registers that one job reads, at most
 #define TMC22XX_BAUD 115200u
+#define TMC22XX_BAUD_MIN 9600u
+#define TMC22XX_BAUD_MAX 500000u
 
 // ---- Wires --------------------------------------------------------------------------------------
 

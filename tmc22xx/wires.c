@@ -2,8 +2,12 @@
 #include "tmc22xx/wires.h"
 
 #include "hal/pins.h"
+#include "tmc22xx/tmc22xx.h"
 
 #define OWNER "TMC22xx wire"
+
+_Static_assert(TMC22XX_BAUD_MIN >= HAL_WIRE_BAUD_MIN && TMC22XX_BAUD_MAX <= HAL_WIRE_BAUD_MAX,
+               "the hardware can do it");
 
 static hal_wire_t wires[WIRES]; // baud 0: free
 
@@ -71,9 +75,9 @@ static err_t change(unsigned wire, uint8_t rx_gpio, uint32_t baud) {
 }
 
 err_t wires_set(uint8_t tx_gpio, uint8_t rx_gpio, uint32_t baud) {
-    if (baud < HAL_WIRE_BAUD_MIN || baud > HAL_WIRE_BAUD_MAX) {
+    if (baud < TMC22XX_BAUD_MIN || baud > TMC22XX_BAUD_MAX) {
         return err_raise(ERR_ARGUMENT, "baud: %u is invalid (valid is %u to %u)", (unsigned)baud,
-                         HAL_WIRE_BAUD_MIN, HAL_WIRE_BAUD_MAX);
+                         TMC22XX_BAUD_MIN, TMC22XX_BAUD_MAX);
     }
     unsigned wire = wires_find(tx_gpio);
     if (wire != WIRES_NONE) {
