@@ -1,31 +1,21 @@
 // Faults at every frame of every kind of job. Whatever happens on the wire: a job that says it has
 // succeeded has made the driver what the table says, one that failed has left the table alone, a
 // fault that a repeat mends fails nothing, and it all ends after few frames.
-#include "tmc22xx/tmc22xx.h"
+#include "bench.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unity.h>
 
 #include "hal/hal.h"
-#include "line.h"
 #include "tmc22xx/drivers.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
-#define WIRE 16
+#define ADDRESS 1
 #define MORE_FRAMES 40 // than without faults, at most
 #ifndef RANDOM_JOBS
 #define RANDOM_JOBS 100000
 #endif
-
-static const tmc22xx_settings_t usual = {.tx_gpio = WIRE,
-                                         .address = 1,
-                                         .chip = 2209,
-                                         .run_ma = 800,
-                                         .hold_percent = 30,
-                                         .microsteps = 16,
-                                         .r_sense_ohm = 0.11,
-                                         .stealth = true};
 
 static unsigned driver; // which of them a job is for
 static line_chip_t *chips[2];
@@ -64,8 +54,7 @@ static const char *const job_names[JOBS] = {"set-up", "set-up again", "current",
 static err_t begin(unsigned job) {
     static const uint8_t registers[] = {TMC22XX_REG_SG_RESULT, TMC22XX_REG_CHOPCONF,
                                         TMC22XX_REG_IFCNT};
-    tmc22xx_settings_t settings = usual;
-    settings.address = chips[driver]->address;
+    tmc22xx_settings_t settings = bench_settings(BENCH_WIRE, chips[driver]->address);
     settings.microsteps = job == JOB_NEW ? 16 : 64;
     switch (job) {
     case JOB_NEW:
@@ -95,7 +84,7 @@ static void prepare(unsigned job, uint8_t ifcnt) {
     line_reset();
     line.late_us = plan.late_us;
     driver = 0;
-    chips[0] = line_add(WIRE, usual.address);
+    chips[0] = line_add(BENCH_WIRE, ADDRESS);
     chips[0]->registers[TMC22XX_REG_SG_RESULT] = 0x1F2;
     if (job != JOB_NEW) {
         TEST_ASSERT_EQUAL(ERR_OK, run(JOB_NEW));
@@ -147,7 +136,7 @@ static void check_failure(unsigned job, const driver_t *before, err_t err) {
     bool says_partly = strstr(err_message(), "partly") != NULL;
     if (job == JOB_NEW) {
         TEST_ASSERT_NULL_MESSAGE(entry, where);
-        TEST_ASSERT_FALSE_MESSAGE(line_is_open(WIRE), where);
+        TEST_ASSERT_FALSE_MESSAGE(line_is_open(BENCH_WIRE), where);
         return;
     }
     TEST_ASSERT_NOT_NULL_MESSAGE(entry, where);
@@ -356,7 +345,7 @@ static void random_job(unsigned job, unsigned number) {
 static void test_at_random(void) {
     count_clean_frames();
     prepare(JOB_CURRENT, 3);
-    chips[1] = line_add(WIRE, 2); // on the same wire: an answer does not say who it is from
+    chips[1] = line_add(BENCH_WIRE, 2); // on the same wire: an answer does not say who it is from
     driver = 1;
     TEST_ASSERT_EQUAL(ERR_OK, run(JOB_NEW));
     good = 0;

@@ -1,14 +1,12 @@
 // The monitor: who is asked when, and what is told of it, once.
-#include "tmc22xx/tmc22xx.h"
+#include "bench.h"
 
 #include <string.h>
 #include <unity.h>
 
 #include "hal/hal.h"
-#include "line.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
-#define WIRE 16
 #define NAME "TMC2209 at address 0 on GP16 (pin 21), axis X "
 #define SECOND_US 1000000u
 
@@ -16,28 +14,11 @@ static line_chip_t *chip;
 static unsigned driver;
 static char event[160];
 
-static unsigned set_up(uint8_t address) {
-    const tmc22xx_settings_t settings = {.tx_gpio = WIRE,
-                                         .address = address,
-                                         .chip = 2209,
-                                         .run_ma = 800,
-                                         .hold_percent = 30,
-                                         .microsteps = 16,
-                                         .r_sense_ohm = 0.11,
-                                         .stealth = true};
-    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_set_up(&settings));
-    line_run();
-    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_result());
-    unsigned found = 99;
-    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_find(address, WIRE, &found));
-    return found;
-}
-
 void setUp(void) {
     line_reset();
     tmc22xx_monitor(true);
-    chip = line_add(WIRE, 0);
-    driver = set_up(0);
+    chip = line_add(BENCH_WIRE, 0);
+    driver = bench_set_up(BENCH_WIRE, 0);
     tmc22xx_tie(driver, 0);
     line_expect(NULL);
 }
@@ -67,8 +48,8 @@ static void tells_nothing(void) {
 
 static void test_each_is_asked_once_a_second(void) {
     for (uint8_t address = 1; address < 3; address++) {
-        line_add(WIRE, address);
-        set_up(address);
+        line_add(BENCH_WIRE, address);
+        bench_set_up(BENCH_WIRE, address);
     }
     line_expect(NULL);
     pass(20 * SECOND_US);
@@ -86,8 +67,8 @@ static void test_each_is_asked_once_a_second(void) {
 // A board that has nothing to do wakes every two seconds.
 static void test_a_main_loop_that_sleeps(void) {
     for (uint8_t address = 1; address < 3; address++) {
-        line_add(WIRE, address);
-        set_up(address);
+        line_add(BENCH_WIRE, address);
+        bench_set_up(BENCH_WIRE, address);
     }
     line_expect(NULL);
     for (unsigned i = 0; i < 10; i++) {
@@ -108,7 +89,7 @@ static void test_nobody_is_asked(void) {
     tmc22xx_verify(false);
     pass(5 * SECOND_US);
     TEST_ASSERT_EQUAL_UINT(0, line.frame_count);
-    set_up(0);
+    bench_set_up(BENCH_WIRE, 0);
     tmc22xx_verify(true); // but this one was never heard
     line_expect(NULL);
     pass(5 * SECOND_US);
@@ -152,7 +133,7 @@ static void test_an_error_that_nobody_saw(void) {
     pass(20 * SECOND_US);
     tells(NAME "has had the motor off for a moment: overheated, or a short circuit");
     tells_nothing();
-    set_up(0); // clears it
+    bench_set_up(BENCH_WIRE, 0); // clears it
     chip->registers[TMC22XX_REG_GSTAT] = TMC22XX_MASK(GSTAT, drv_err);
     pass(2 * SECOND_US);
     tells(NAME "has had the motor off for a moment: overheated, or a short circuit");
@@ -176,7 +157,7 @@ static void test_lost_settings(void) {
     tmc22xx_info_t info;
     TEST_ASSERT_TRUE(tmc22xx_info(driver, &info));
     TEST_ASSERT_TRUE(info.lost);
-    set_up(0);
+    bench_set_up(BENCH_WIRE, 0);
     pass(20 * SECOND_US);
     tells_nothing();
     line_power_up(chip);
