@@ -172,7 +172,7 @@ static const basic_command_t commands[] = {
     {"TMC22XX TCOOLTHRS", ARGS(tcoolthrs_args), tmc_tune_tcoolthrs,
      "Sets the speed from which on StallGuard and CoolStep work; TMC2209 only"},
     {"TMC22XX STALL", ARGS(stall_args), tmc_tune_stall,
-     "The same as a speed of the axis it is tied to, by default for homing; shows TCOOLTHRS"},
+     "Sets TCOOLTHRS by a speed of the axis it is tied to, by default for homing; shows it"},
     {"TMC22XX SGTUNE", ARGS(sgtune_args), tmc_sgtune,
      "Jogs the axis of a TMC2209, shows SG_RESULT meanwhile and proposes SGTHRS and TCOOLTHRS"},
     {"TMC22XX COOLSTEP", ARGS(coolstep_args), tmc_tune_coolstep,

@@ -43,7 +43,8 @@ typedef struct {
     double full_step;          // in units of the axis
     uint64_t begin_us, row_us; // of the jog, of this row
     uint64_t constant_us;      // since when the speed is constant
-    double top;                // highest speed so far, units/min
+    double top;                // highest speed so far but for a percent, units/min
+    double fastest;            // of those that counted as constant
     double speed;              // and the last one
     uint32_t sg_result, cs;    // the last ones
     readings_t row, constant;  // of this row; at constant speed
@@ -119,11 +120,13 @@ static void note_constant(tune_t *tune, double speed) {
     if (speed > FASTER_PART * tune->top) {
         tune->top = speed;
         tune->constant_us = now_us;
+        tune->fastest = 0.0;
         tune->constant.count = 0;
         tune->constant.sum = 0;
     }
     double settle_us = SETTLE_US + SETTLE_FULL_STEPS * tune->full_step / speed * 60e6;
     if (speed >= CONSTANT_PART * tune->top && (double)(now_us - tune->constant_us) >= settle_us) {
+        tune->fastest = fmax(tune->fastest, speed);
         note(&tune->constant, tune->sg_result);
     }
 }
@@ -193,7 +196,7 @@ static err_t check_readings(const tune_t *tune) {
     if (tune->constant.lowest < LOWEST_USABLE) {
         return err_raise(ERR_TMC_SGTUNE,
                          "SG_RESULT fell to %u in free running, a stall would look the same: more "
-                         "feed, or another current",
+                         "feed, another current, or the axis was held",
                          (unsigned)tune->constant.lowest);
     }
     return ERR_OK;
@@ -219,7 +222,7 @@ static void hint_at_seek(const tune_t *tune) {
         return;
     }
     stepper_home_settings(tune->axis, &home);
-    if (fabs(home.seek - tune->top) > SEEK_DIFFERS * tune->top) {
+    if (fabs(home.seek - tune->fastest) > SEEK_DIFFERS * tune->fastest) {
         basic_printf("Homing goes at %.6g mm/min: tune at that feed, or home at this one\n",
                      home.seek);
     }
@@ -230,9 +233,9 @@ static void propose(const tune_t *tune) {
     const char *unit = report_unit(tune->axis);
     uint32_t sgthrs = constant->lowest / SGTHRS_DIVISOR;
     sgthrs = sgthrs > SGTHRS_MAX ? SGTHRS_MAX : sgthrs;
-    double feed = round(TMC_HOMING_FEED_PART * tune->top);
-    basic_printf("At %.0f %s/min: SG_RESULT %u lowest, %.0f mean of %u readings\n", tune->top, unit,
-                 (unsigned)constant->lowest, mean(constant), constant->count);
+    double feed = round(TMC_HOMING_FEED_PART * tune->fastest);
+    basic_printf("At %.0f %s/min: SG_RESULT %u lowest, %.0f mean of %u readings\n", tune->fastest,
+                 unit, (unsigned)constant->lowest, mean(constant), constant->count);
     basic_printf("Proposal: a stall is SG_RESULT at or below %u, from %.0f %s/min on (TCOOLTHRS "
                  "%u)\n",
                  (unsigned)(2 * sgthrs), feed, unit, (unsigned)tmc_tstep(tune->driver, feed));

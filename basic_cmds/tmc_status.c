@@ -88,7 +88,7 @@ static void print_values(const tmc22xx_settings_t *settings, const tmc22xx_info_
     print_load(settings, info, values);
     basic_printf("  temperature: %s %u degrees Celsius\n", degrees == 0 ? "below" : "above",
                  degrees == 0 ? 120 : degrees);
-    basic_printf("  wire: IFCNT %u, %u frames repeated, %u accesses failed\n",
+    basic_printf("  wire: IFCNT %u, repeated frames %u, failed accesses %u\n",
                  (unsigned)values[READ_IFCNT], info->repeats, info->failures);
 }
 

@@ -48,6 +48,7 @@ typedef struct {
     uint8_t conditions;   // DRIVERS_HOT and so on, as far as is known
     uint8_t told;         // those the user knows of
     uint8_t calm;         // looks in a row without any
+    uint8_t answered;     // looks in a row that it has answered, up to a few
     uint16_t dirty;       // kept registers (bits) that may be otherwise in the driver
     uint16_t run_dma;     // 0.1 mA
     uint16_t hold_bp;     // 0.01 %

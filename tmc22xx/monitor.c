@@ -11,6 +11,9 @@
 // A condition that comes and goes is not told again before it was away for so many looks.
 #define CALM_LOOKS 10u
 
+// A driver on a loose wire has to answer for so many looks before that is told.
+#define ANSWERED_LOOKS 3u
+
 static struct {
     bool off;
     bool news;    // there may be something to tell
@@ -55,6 +58,7 @@ void monitor_note_failure(driver_t *entry, uint8_t fault, bool is_monitor) {
         condition = DRIVERS_SILENT;
     }
     entry->conditions |= condition;
+    entry->answered = 0;
     monitor.news = true;
     if (!is_monitor) {
         entry->told |= condition;
@@ -94,6 +98,7 @@ void monitor_note(driver_t *entry, uint32_t gstat, uint32_t drv_status) {
     if (overheated || is_short) {
         entry->told |= DRIVERS_ERROR; // with its reason
     }
+    entry->answered = (uint8_t)(entry->answered + (entry->answered < ANSWERED_LOOKS));
     forget_told(entry);
     monitor.news = true;
 }
@@ -152,7 +157,8 @@ static const char *take_news(driver_t *entry) {
             return texts[i].text;
         }
     }
-    if ((entry->told & (uint8_t)~entry->conditions & DRIVERS_SILENT) != 0) {
+    bool is_back = (entry->told & (uint8_t)~entry->conditions & DRIVERS_SILENT) != 0;
+    if (is_back && entry->answered == ANSWERED_LOOKS) {
         entry->told &= (uint8_t)~DRIVERS_SILENT;
         return "answers again";
     }

@@ -68,6 +68,17 @@ def test_the_proposal(tmp_path: Path) -> None:
     assert at.report.register("TCOOLTHRS") == 0
 
 
+def test_the_feed_is_named_as_it_was_given(tmp_path: Path) -> None:
+    """With slow ramps the last percent takes long, and is no other speed."""
+    axis = "STEPPER AXIS X,GP2,GP3,GP4,,80,6000,100"
+    for feed in (2900, 3000, 3100):
+        folder = tmp_path / str(feed)
+        folder.mkdir()
+        at, tuning = tuned(folder, axis, f"TMC22xx SGTUNE X,{feed},80")
+        assert f"At {feed} mm/min:" in at.last
+        assert tuning.least_speed == pytest.approx(0.6 * feed)
+
+
 @pytest.mark.parametrize("load_ma", [20, 80, 250])
 def test_homing_works_with_what_is_proposed(load_ma: int, tmp_path: Path) -> None:
     """And a move that does not reach the end is not mistaken, whatever the friction."""

@@ -182,10 +182,24 @@ static void test_silent_and_back(void) {
     pass(20 * SECOND_US);
     tells_nothing();
     chip->gone = false;
-    pass(3 * SECOND_US);
+    pass(5 * SECOND_US);
     tells(NAME "answers again");
     pass(20 * SECOND_US);
     tells_nothing();
+}
+
+static void test_a_loose_wire(void) {
+    chip->gone = true;
+    pass(3 * SECOND_US);
+    tells(NAME "does not answer any more: check its supply and the wire");
+    for (unsigned i = 0; i < 20; i++) {
+        chip->gone = i % 2 != 0;
+        pass(2 * SECOND_US);
+        tells_nothing();
+    }
+    chip->gone = false;
+    pass(5 * SECOND_US);
+    tells(NAME "answers again");
 }
 
 static line_fault_t all_bad(size_t frame) {
@@ -198,7 +212,7 @@ static void test_answers_that_cannot_be_read(void) {
     pass(3 * SECOND_US);
     tells(NAME "does not answer any more: check its supply and the wire");
     line_expect(NULL);
-    pass(3 * SECOND_US);
+    pass(5 * SECOND_US);
     tells(NAME "answers again");
 }
 
@@ -216,7 +230,7 @@ static void test_disarmed_when_it_answers_again(void) {
     TEST_ASSERT_TRUE(info.armed);
     TEST_ASSERT_EQUAL_UINT32(300, chip->registers[TMC22XX_REG_TCOOLTHRS]);
     chip->gone = false;
-    pass(3 * SECOND_US);
+    pass(5 * SECOND_US);
     TEST_ASSERT_EQUAL_UINT32(0, chip->registers[TMC22XX_REG_TCOOLTHRS]);
     TEST_ASSERT_TRUE(tmc22xx_info(driver, &info));
     TEST_ASSERT_FALSE(info.armed);
@@ -272,6 +286,7 @@ int main(void) {
     RUN_TEST(test_lost_settings);
     RUN_TEST(test_lost_settings_that_a_statement_found);
     RUN_TEST(test_silent_and_back);
+    RUN_TEST(test_a_loose_wire);
     RUN_TEST(test_answers_that_cannot_be_read);
     RUN_TEST(test_disarmed_when_it_answers_again);
     RUN_TEST(test_a_statement_and_the_monitor);
