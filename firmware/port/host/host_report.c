@@ -41,7 +41,6 @@ static void tell_access(const simulate_tmc_access_t *access) {
 
 static void tell_diag(void *state, uint64_t time_ns, uint32_t changed, uint32_t levels) {
     (void)state;
-    (void)levels;
     const simulate_tmc_t *tmc;
     for (unsigned i = 0; report.file != NULL && (tmc = simulate_tmc_at(i)) != NULL; i++) {
         if ((changed & pins_mask(tmc->diag_gpio)) != 0) {

@@ -55,10 +55,6 @@ void simulate_faults_limit(simulate_faults_t *faults, simulate_chip_fault_t faul
     }
 }
 
-void simulate_faults_clear(simulate_faults_t *faults, simulate_chip_fault_t fault) {
-    faults->list[fault].set = false;
-}
-
 bool simulate_faults_active(const simulate_faults_t *faults, simulate_chip_fault_t fault,
                             uint64_t now_ns) {
     return faults->list[fault].set && now_ns >= faults->list[fault].from_ns &&

@@ -54,8 +54,6 @@ void simulate_faults_set(simulate_faults_t *faults, simulate_chip_fault_t fault,
 // Number of frames, or value.
 void simulate_faults_limit(simulate_faults_t *faults, simulate_chip_fault_t fault, int32_t number);
 
-void simulate_faults_clear(simulate_faults_t *faults, simulate_chip_fault_t fault);
-
 // It is there at this time.
 bool simulate_faults_active(const simulate_faults_t *faults, simulate_chip_fault_t fault,
                             uint64_t now_ns);
