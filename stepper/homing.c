@@ -77,19 +77,9 @@ static double direction(axis_id_t axis) {
     return home_config_switch_of(axis).max ? 1.0 : -1.0;
 }
 
-// True when the drivers of the group are as they should be; otherwise that takes a while, or was
-// the end of the cycle.
-static bool drivers_are(bool on) {
-    stepper_arm_t answer = homing_hook_arm(homing.group, on);
-    if (answer == STEPPER_ARM_FAILED) {
-        cycle_end(CYCLE_DRIVER, 0, 0.0);
-    }
-    return answer == STEPPER_ARM_DONE;
-}
-
-// The same of what an earlier cycle has left armed.
-static bool drivers_are_tidy(void) {
-    stepper_arm_t answer = homing_hook_tidy();
+// True when the drivers are as they should be; otherwise that takes a while, or was the end of the
+// cycle.
+static bool drivers_are_ready(stepper_arm_t answer) {
     if (answer == STEPPER_ARM_FAILED) {
         cycle_end(CYCLE_DRIVER, 0, 0.0);
     }
@@ -339,7 +329,7 @@ static void begin_move(void) {
 }
 
 void homing_advance(void) {
-    if (!drivers_are_tidy()) {
+    if (!drivers_are_ready(homing_hook_tidy())) {
         return;
     }
     if (homing.moved && !homing.settled) {
@@ -366,7 +356,7 @@ void homing_advance(void) {
     }
     if (homing.todo == 0) {
         end_group();
-    } else if (drivers_are(phases[homing.phase].towards)) {
+    } else if (drivers_are_ready(homing_hook_arm(homing.group, phases[homing.phase].towards))) {
         begin_move();
     }
 }
