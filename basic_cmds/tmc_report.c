@@ -1,6 +1,8 @@
 // TMC22xx READ, WRITE and PEEK(TMC ...). Context: main loop.
 #include "basic_cmds/tmc_report.h"
 
+#include <string.h>
+
 #include "basic_cmds/tmc.h"
 #include "tmc22xx/tmc22xx_registers.h"
 
@@ -149,7 +151,7 @@ static const struct {
     const char *name;
     uint8_t reg;
     uint32_t (*take)(uint32_t value);
-} shorts[] = {
+} short_names[] = {
     {"SG", TMC22XX_REG_SG_RESULT, whole},
     {"CS", TMC22XX_REG_DRV_STATUS, current_scale},
     {"TEMP", TMC22XX_REG_DRV_STATUS, temperature},
@@ -157,11 +159,7 @@ static const struct {
 };
 
 static bool is_word(const basic_text_t *text, const char *word) {
-    size_t i = 0;
-    while (i < text->length && word[i] != '\0' && letters_upper(text->text[i]) == word[i]) {
-        i++;
-    }
-    return i == text->length && word[i] == '\0';
+    return text->length == strlen(word) && letters_same(text->text, word, text->length);
 }
 
 err_t tmc_report_peek(const basic_arg_t *args, size_t count, basic_value_t *result) {
@@ -170,10 +168,10 @@ err_t tmc_report_peek(const basic_arg_t *args, size_t count, basic_value_t *resu
     uint32_t value;
     basic_arg_t what = args[1];
     uint32_t (*take)(uint32_t) = whole;
-    for (size_t i = 0; i < COUNT_OF_ARRAY(shorts); i++) {
-        if (is_word(&args[1].text, shorts[i].name)) {
-            what = (basic_arg_t){.integer = shorts[i].reg};
-            take = shorts[i].take;
+    for (size_t i = 0; i < COUNT_OF_ARRAY(short_names); i++) {
+        if (is_word(&args[1].text, short_names[i].name)) {
+            what = (basic_arg_t){.integer = short_names[i].reg};
+            take = short_names[i].take;
         }
     }
     const tmc22xx_register_t *reg;

@@ -136,10 +136,6 @@ static void note_failure(driver_t *entry, uint8_t fault) {
     }
 }
 
-static bool can_restore(uint8_t fault) {
-    return job_driver() != NULL && job.touched != 0 && job.kind != JOB_ARM && fault != ACCESS_LOST;
-}
-
 void endings_fail(uint8_t fault) {
     if (job.outcome.fault == ACCESS_OK) {
         job.outcome.fault = fault;
@@ -151,7 +147,7 @@ void endings_fail(uint8_t fault) {
     if (job.kind == JOB_SET_UP && job.phase == PHASES_IDENTIFY && fault == ACCESS_SILENT) {
         job.next = 0;
         phases_enter(PHASES_KNOCK);
-    } else if (can_restore(fault)) {
+    } else if (job.outcome.partly && job_driver() != NULL) {
         restore(job.touched);
     } else {
         give_driver_up();

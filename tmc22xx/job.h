@@ -18,7 +18,7 @@ typedef struct {
     bool on;     // JOB_ARM
     bool opened; // the wire, for this job
     bool cancelled;
-    bool has_raw;     // a register beside the kept ones is still to be written
+    bool has_raw;     // a register beside the kept ones is to be written behind them
     uint8_t raw_reg;  // its address
     uint8_t armed;    // JOB_ARM: drivers still to come, as bits
     uint8_t next;     // register to be read, or address to be asked

@@ -11,10 +11,9 @@
 
 // ---- Writing ------------------------------------------------------------------------------------
 
-static void end_writing(void) {
-    if (job.has_raw) {
-        phases_enter(PHASES_RAW);
-    } else if (job_knows_resets()) {
+// What the job wanted is done; if the driver was reset meanwhile that was for nothing.
+static void look_for_reset(void) {
+    if (job_knows_resets()) {
         phases_enter(PHASES_LOOK);
     } else {
         endings_succeed();
@@ -49,8 +48,10 @@ static void write_next(void) {
 static void begin_write(void) {
     if (job.pending != 0) {
         write_next();
+    } else if (job.has_raw) {
+        phases_enter(PHASES_RAW);
     } else {
-        end_writing();
+        look_for_reset();
     }
 }
 
@@ -137,7 +138,6 @@ static void end_delay(void) {
 }
 
 static void begin_raw(void) {
-    job.has_raw = false;
     access_write(job.raw_reg, job.raw_value, job.verify);
 }
 
@@ -146,7 +146,7 @@ static void end_raw(void) {
     if (job.raw_reg == TMC22XX_REG_GSTAT && TMC22XX_TAKE(job.raw_value, GSTAT, reset) != 0) {
         job_driver()->conditions &= (uint8_t)~DRIVERS_LOST;
     }
-    end_writing();
+    look_for_reset();
 }
 
 static void begin_read(void) {
@@ -160,10 +160,10 @@ static void end_read(void) {
     (monitor ? job.look : job_reading.values)[job.next++] = access_value();
     if (job.next < (monitor ? COUNT_OF_ARRAY(job.look) : job_reading.count)) {
         phases_enter(PHASES_READ);
-    } else if (!monitor && job_knows_resets()) {
-        phases_enter(PHASES_LOOK);
-    } else {
+    } else if (monitor) { // it has looked
         endings_succeed();
+    } else {
+        look_for_reset();
     }
 }
 

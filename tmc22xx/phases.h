@@ -13,7 +13,8 @@
 //   monitor                                               READ ...
 //
 // If an access fails and kept registers have been written, RESTORE writes what they were before;
-// what cannot be restored is `dirty` and is written first by the next job that changes something.
+// what cannot be restored is `dirty` and is written first by the next job that changes something,
+// or behind a look of the monitor that finds the driver well.
 // If nobody answers to IDENTIFY, KNOCK finds out who else does.
 typedef enum {
     PHASES_IDENTIFY,

@@ -11,7 +11,7 @@ const STANDSTILL_CLOCKS = 2 ** 20, POWER_DOWN_CLOCKS = 2 ** 18;
 const RANDOM = ['SG_RESULT', 'MSCNT', 'MSCURACT', 'PWM_SCALE', 'PWM_AUTO', 'TSTEP']; // with `measured: 'random'`
 const SG_FREE = 400, SG_HALF_SPEED = 60; // SG_RESULT of a free motor, and the full steps/s at which it has half of it
 const PIN_MICROSTEPS = { 2209: [8, 32, 64, 16], 2208: [8, 2, 4, 16] }; // by MS1 + 2 * MS2, without mstep_reg_select
-const GSTAT_RESET = 1, GSTAT_DRIVER_ERROR = 2;
+const GSTAT_DRIVER_ERROR = 2;
 const DRIVER_ERRORS = 0x3e; // of DRV_STATUS: over-temperature shutdown and shorts
 const MS = 1e6;
 
@@ -282,11 +282,6 @@ export class Tmc2209 {
         this.shorts = bits;
         this.setHeat(this.celsius);
     }
-
-    brownOut() {
-        this.reset();
-        this.values.set('GSTAT', GSTAT_RESET);
-    }
 }
 
 const COUNTED = {};
@@ -302,7 +297,7 @@ const FAULTS = {
         begin: (driver, { times }) => { driver.wire.garbled = times; },
         end: (driver) => { driver.wire.garbled = 0; },
     },
-    'brown-out': { begin: (driver) => driver.brownOut() }, // all settings are lost
+    'brown-out': { begin: (driver) => driver.reset() }, // all settings are lost
     unplugged: { begin: (driver) => driver.wire.setPlugged(false), end: (driver) => driver.wire.setPlugged(true) },
     unpowered: { begin: (driver) => driver.setPower(false), end: (driver) => driver.setPower(true) },
     'over-temperature': { begin: (driver, { celsius = 120 }) => driver.setHeat(celsius), end: (driver) => driver.setHeat(0) },

@@ -2,7 +2,8 @@
 // edges of an answer. Times are nanoseconds on the board's line of time.
 // Source: TMC2209 data sheet, section 4 (UART single wire interface).
 
-export const SYNC = 0x05, MASTER = 0xff, WRITE = 0x80;
+const SYNC = 0x05, MASTER = 0xff;
+export const WRITE = 0x80;
 const SHORT = 4, LONG = 8;           // bytes of a request to read, of everything else
 const GLITCH_CLOCKS = 16;            // a shorter pulse on an idle line is an error
 const SLOWEST_BAUD = 9000, BAUD_BEFORE = 115200; // before it has measured any
@@ -25,7 +26,7 @@ export function crc8(bytes) {
     return crc;
 }
 
-export const withCrc = (bytes) => [...bytes, crc8(bytes)];
+const withCrc = (bytes) => [...bytes, crc8(bytes)];
 
 const wordBytes = (value) => [value >>> 24, value >>> 16 & 0xff, value >>> 8 & 0xff, value & 0xff];
 
