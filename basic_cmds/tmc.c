@@ -68,6 +68,17 @@ err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fo
     return err != ERR_OK ? err : tmc_find(driver, wire, found);
 }
 
+err_t tmc_check_feed(unsigned axis, double feed) {
+    stepper_axis_t config;
+    stepper_axis_config((axis_id_t)axis, &config);
+    if (feed <= config.max_velocity) {
+        return ERR_OK;
+    }
+    return err_raise(ERR_ARGUMENT,
+                     "feed: %.9g is invalid (valid is above 0 to %.9g, the max_vel of %c)", feed,
+                     config.max_velocity, STEPPER_AXIS_LETTERS[axis]);
+}
+
 uint32_t tmc_tstep(unsigned driver, double feed) {
     tmc22xx_info_t info;
     stepper_axis_t config;

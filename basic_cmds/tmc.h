@@ -50,6 +50,9 @@ err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fo
 // gives it up.
 err_t tmc_finish(err_t begun);
 
+// Error: it is faster than its axis, which is configured, can go.
+err_t tmc_check_feed(unsigned axis, double feed);
+
 // TSTEP at a feed (units/min) of a driver that is tied to a configured axis.
 uint32_t tmc_tstep(unsigned driver, double feed);
 

@@ -19,6 +19,7 @@
 #define SETTLE_US 50000.0
 #define SETTLE_FULL_STEPS 4.0
 #define READINGS_MIN 10u     // at constant speed; from less nothing is concluded
+#define HELD_READINGS 30u    // of 0 one after another at constant speed: the axis is held
 #define CONSTANT_PART 0.98   // of the highest speed so far: that counts as constant
 #define FASTER_PART 1.01     // and this as a new highest one
 #define DISTANCE_SECONDS 1.0 // at the feed, if no distance is given
@@ -48,6 +49,7 @@ typedef struct {
     double speed;              // and the last one
     uint32_t sg_result, cs;    // the last ones
     readings_t row, constant;  // of this row; at constant speed
+    unsigned zeros;            // the last ones that were 0 at constant speed
 } tune_t;
 
 // To the last step.
@@ -86,6 +88,9 @@ static err_t prepare(tune_t *tune, const basic_arg_t *args) {
     err_t err = tmc_begin(&args[SGTUNE_DRIVER], &args[SGTUNE_TX_PIN], &tune->driver);
     if (err == ERR_OK) {
         err = take_driver(tune);
+    }
+    if (err == ERR_OK) {
+        err = tmc_check_feed(tune->axis, args[SGTUNE_FEED].number);
     }
     if (err == ERR_OK && !tmc_is_stealthy(tune->driver, args[SGTUNE_FEED].number)) {
         err = err_raise(ERR_TMC_SGTUNE,
@@ -128,6 +133,7 @@ static void note_constant(tune_t *tune, double speed) {
     if (speed >= CONSTANT_PART * tune->top && (double)(now_us - tune->constant_us) >= settle_us) {
         tune->fastest = fmax(tune->fastest, speed);
         note(&tune->constant, tune->sg_result);
+        tune->zeros = tune->sg_result == 0 ? tune->zeros + 1 : 0;
     }
 }
 
@@ -166,6 +172,9 @@ static err_t take_reading(tune_t *tune) {
         note_constant(tune, fmin(before, tune->speed));
         print_row(tune);
     }
+    if (tune->zeros == HELD_READINGS) {
+        stepper_jog_stop(); // nothing more can be learned by hammering
+    }
     return err;
 }
 
@@ -196,7 +205,7 @@ static err_t check_readings(const tune_t *tune) {
     if (tune->constant.lowest < LOWEST_USABLE) {
         return err_raise(ERR_TMC_SGTUNE,
                          "SG_RESULT fell to %u in free running, a stall would look the same: more "
-                         "feed, another current, or the axis was held",
+                         "feed, another current; or the axis was held (home it then)",
                          (unsigned)tune->constant.lowest);
     }
     return ERR_OK;

@@ -55,18 +55,13 @@ static err_t tstep_at(unsigned driver, double feed, uint32_t *tstep) {
         return err_raise(ERR_TMC_NO_AXIS, NULL);
     }
     err_t err = stepper_check_axis((axis_id_t)axis);
-    if (err != ERR_OK) {
-        return err;
+    if (err == ERR_OK) {
+        err = tmc_check_feed(axis, feed);
     }
-    stepper_axis_t config;
-    stepper_axis_config((axis_id_t)axis, &config);
-    if (feed > config.max_velocity) {
-        return err_raise(ERR_ARGUMENT,
-                         "feed: %.9g is invalid (valid is above 0 to %.9g, the max_vel of %c)",
-                         feed, config.max_velocity, STEPPER_AXIS_LETTERS[axis]);
+    if (err == ERR_OK) {
+        *tstep = feed > 0.0 ? tmc_tstep(driver, feed) : 0;
     }
-    *tstep = feed > 0.0 ? tmc_tstep(driver, feed) : 0;
-    return ERR_OK;
+    return err;
 }
 
 // The speed at a TSTEP, in units of the axis if there is one.

@@ -40,6 +40,7 @@ PROGRAMS = (
     "Into the board",
     "Larger programs",
     "Events",
+    "Drivers in a program",
 )  # headings of blocks that are typed as one program
 GUIDE = "docs/user-guide.md"
 # A reader of the guide waits for the end of what the block before has begun.

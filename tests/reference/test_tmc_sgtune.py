@@ -196,6 +196,14 @@ def test_too_slow_for_stallguard(tmp_path: Path) -> None:
     assert tuning.commands == []
 
 
+def test_an_axis_that_is_held(tmp_path: Path) -> None:
+    """It is not driven against its end for longer than it takes to be sure."""
+    at, tuning = tuned(tmp_path, "TMC22xx SGTUNE X,3000,-400")
+    assert "the axis was held" in at.errors()[0]
+    assert tuning.commands == []
+    assert 20 < -at.end("X") < 50  # its end is at 20
+
+
 def test_estop_ends_it(tmp_path: Path) -> None:
     """The reason is told, and nothing is concluded from half a jog."""
     at, tuning = tuned(tmp_path, "TMC22xx SGTUNE X,3000,60", events=[Event(600, 22, 0)])
@@ -232,6 +240,7 @@ def test_a_reading_that_is_disturbed_is_asked_again(tmp_path: Path) -> None:
         (["TMC22xx AXIS 0"], "tied to no axis"),
         (["TMC22xx STEALTH X,OFF"], "StallGuard needs StealthChop"),
         (["TMC22xx STEALTH X,,1000"], "StallGuard needs StealthChop"),
+        (["STEPPER AXIS X,GP2,GP3,GP4,,80,2000,500"], "feed: 3000 is invalid (valid is above 0"),
         (["STEPPER RECOVER"], "Not armed"),
         (["STEPPER POSITION HOME", "STEPPER GC G1 X20 F600"], "No jogging while motion is active"),
         (["STEPPER JOG X,50,300", "PAUSE 50"], "A jog is under way"),

@@ -105,7 +105,7 @@ def test_a_picture_without_a_proposal(tmp_path):
 def test_the_board_refuses(board):
     result = call("Y", 3000, "--port", board.device)
     assert result.exit_code == 1
-    assert "Error: " in result.output
+    assert any(line.startswith("Error: ") for line in result.output.splitlines())
     assert "Y" in result.output
 
 

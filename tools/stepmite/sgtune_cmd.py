@@ -45,11 +45,12 @@ class Rows:
 def _ask(board: Board, line: str, console: Console) -> list[str]:
     """Type the line; show rows as they come. Returns the whole answer."""
     rows = Rows()
-    with Live(rows.table, console=console, vertical_overflow="visible"):
-        answer = board.command(line, timeout_s=JOG_S, on_line=rows.add)
-    if not console.is_terminal:
-        console.print()  # where it is no terminal the table ends without
-    return answer
+    try:
+        with Live(rows.table, console=console, vertical_overflow="visible"):
+            return board.command(line, timeout_s=JOG_S, on_line=rows.add)
+    finally:
+        if not console.is_terminal:
+            console.print()  # where it is no terminal the table ends without
 
 
 def run(device: str, line: str, picture: Path | None = None, console: Console | None = None) -> int:
