@@ -25,6 +25,20 @@
 #define HAL_WIRE_HELD_BITS 110u
 #define HAL_WIRE_REPLY_EARLIEST_BITS 8u
 #define HAL_WIRE_REPLY_LATEST_BITS 128u
+#define HAL_WIRE_TAKE_BITS 1u  // driven high before the first start bit
+#define HAL_WIRE_BYTE_BITS 10u // with start and stop bit
+
+// For the ports: so many bit times after the line was taken an exchange may be over, and has to be.
+static inline uint32_t hal_wire_ready_bits(size_t send_size, size_t reply_size) {
+    uint32_t reply_bits = (uint32_t)reply_size * HAL_WIRE_BYTE_BITS;
+    return HAL_WIRE_TAKE_BITS + (uint32_t)send_size * HAL_WIRE_BYTE_BITS + reply_bits +
+           (reply_size > 0 ? HAL_WIRE_REPLY_EARLIEST_BITS : 0);
+}
+
+static inline uint32_t hal_wire_give_up_bits(size_t send_size, size_t reply_size) {
+    return HAL_WIRE_TAKE_BITS + (uint32_t)(send_size + reply_size + 1) * HAL_WIRE_BYTE_BITS +
+           HAL_WIRE_REPLY_LATEST_BITS;
+}
 
 typedef struct {
     uint8_t tx_gpio;

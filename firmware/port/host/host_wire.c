@@ -9,9 +9,7 @@
 #include "host_clock.h"
 #include "simulate_wire.h"
 
-#define BITS_A_BYTE 10u // with start and stop bit
-#define TAKE_BITS 1u    // the line is driven high so long before the first start bit
-#define STOP_BIT 8u     // behind the start bit
+#define STOP_BIT 8u // behind the start bit
 
 typedef enum {
     PHASE_NONE,
@@ -60,19 +58,12 @@ static void let_go(unsigned tx_gpio) {
     simulate_wire_level(tx_gpio, true);
 }
 
-// The level of a bit on the line, start and stop bits included.
-static bool line_bit(unsigned bit) {
-    unsigned place = bit % BITS_A_BYTE;
-    return place == BITS_A_BYTE - 1 ||
-           (place > 0 && (exchange.words.bytes[bit / BITS_A_BYTE] >> (place - 1) & 1) != 0);
-}
-
 static void begin_sending(uint64_t now_ns) {
     hal_pin_output(exchange.wire.tx_gpio, true);
     simulate_wire_level(exchange.wire.tx_gpio, true);
     exchange.phase = PHASE_SEND;
     exchange.bit = 0;
-    exchange.begin_ns = now_ns + bits_ns(TAKE_BITS);
+    exchange.begin_ns = now_ns + bits_ns(HAL_WIRE_TAKE_BITS);
     exchange.next_ns = exchange.begin_ns;
     exchange.words.start_ns = exchange.begin_ns;
 }
@@ -116,8 +107,8 @@ static void take_bit(uint64_t now_ns) {
 }
 
 static void send_bit(uint64_t now_ns) {
-    if (exchange.bit < exchange.words.size * BITS_A_BYTE) {
-        drive(line_bit(exchange.bit++));
+    if (exchange.bit < exchange.words.size * HAL_WIRE_BYTE_BITS) {
+        drive(simulate_wire_bit(&exchange.words, exchange.bit++));
         exchange.next_ns = exchange.begin_ns + bits_ns(exchange.bit);
         return;
     }
@@ -185,15 +176,10 @@ void hal_wire_abort(void) {
 // When what is left of the exchange may be over and when it has to be, from now on.
 static void set_times(uint32_t idle_bits) {
     uint64_t now_ns = host_clock_now_ns();
-    uint64_t send_bits = idle_bits + TAKE_BITS + BITS_A_BYTE * exchange.words.size;
-    uint64_t reply_bits = BITS_A_BYTE * exchange.reply_size;
-    uint64_t ready_bits = send_bits;
-    if (reply_bits > 0) {
-        ready_bits += HAL_WIRE_REPLY_EARLIEST_BITS + reply_bits;
-    }
-    exchange.ready_ns = now_ns + bits_ns(ready_bits);
-    exchange.give_up_ns =
-        now_ns + bits_ns(send_bits + HAL_WIRE_REPLY_LATEST_BITS + reply_bits + BITS_A_BYTE);
+    uint32_t ready_bits = hal_wire_ready_bits(exchange.words.size, exchange.reply_size);
+    uint32_t give_up_bits = hal_wire_give_up_bits(exchange.words.size, exchange.reply_size);
+    exchange.ready_ns = now_ns + bits_ns(idle_bits + ready_bits);
+    exchange.give_up_ns = now_ns + bits_ns(idle_bits + give_up_bits);
 }
 
 void hal_wire_start(const hal_wire_t *wire, const uint8_t *send, size_t size, size_t reply_size) {

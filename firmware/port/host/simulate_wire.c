@@ -3,10 +3,9 @@
 // any.
 #include "simulate_wire.h"
 
+#include "hal/hal_wire.h"
 #include "host_clock.h"
 #include "host_pads.h"
-
-#define BITS_A_BYTE 10u // with start and stop bit
 
 typedef struct {
     simulate_wire_listener_t is;
@@ -55,13 +54,13 @@ static uint64_t bit_ns(const simulate_wire_words_t *words, unsigned bit) {
     return words->start_ns + (uint64_t)(bit * 1e9 / words->baud + 0.5);
 }
 
-static bool line_bit(const simulate_wire_words_t *words, unsigned bit) {
-    unsigned byte = bit / BITS_A_BYTE;
-    unsigned place = bit % BITS_A_BYTE;
+bool simulate_wire_bit(const simulate_wire_words_t *words, unsigned bit) {
+    unsigned byte = bit / HAL_WIRE_BYTE_BITS;
+    unsigned place = bit % HAL_WIRE_BYTE_BITS;
     if (byte >= words->size) {
         return true;
     }
-    if (place == BITS_A_BYTE - 1) {
+    if (place == HAL_WIRE_BYTE_BITS - 1) {
         return (words->no_stop_bytes >> byte & 1) == 0;
     }
     return place > 0 && (words->bytes[byte] >> (place - 1) & 1) != 0;
@@ -81,9 +80,10 @@ void simulate_wire_say(unsigned listener, const simulate_wire_words_t *words) {
 // The bit behind the last one lets go of the line.
 static void say_bit(listener_t *listener) {
     const simulate_wire_words_t *words = &listener->words;
-    listener->low = !line_bit(words, listener->bit++);
-    listener->next_ns = listener->bit <= words->size * BITS_A_BYTE ? bit_ns(words, listener->bit)
-                                                                   : HOST_CLOCK_NEVER;
+    listener->low = !simulate_wire_bit(words, listener->bit++);
+    listener->next_ns = listener->bit <= words->size * HAL_WIRE_BYTE_BITS
+                            ? bit_ns(words, listener->bit)
+                            : HOST_CLOCK_NEVER;
     show(listener->is.rx_gpio);
 }
 

@@ -33,6 +33,9 @@ typedef struct {
     void *state;
 } simulate_wire_listener_t;
 
+// The level of the line at a bit of the words, start and stop bits included; high behind them.
+bool simulate_wire_bit(const simulate_wire_words_t *words, unsigned bit);
+
 // Listens from now on. Returns its number, by which it speaks; SIMULATE_WIRE_LISTENERS_MAX: there
 // is no room.
 unsigned simulate_wire_attach(const simulate_wire_listener_t *listener);

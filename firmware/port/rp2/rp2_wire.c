@@ -15,13 +15,12 @@
 #define MACHINE 0u // exchanges
 #define SETTER 1u  // never runs, only sets pins
 #define CYCLES_A_BIT 16u
-#define BITS_A_BYTE 10u // with start and stop bit
-#define REPLY_BITS_A_BYTE 9u
-#define TAKE_BITS 1u // what the program does before the first start bit takes a little less
+#define REPLY_BITS_A_BYTE (HAL_WIRE_BYTE_BITS - 1) // the start bit is not taken
 #define STOP_BIT (1u << 8)
 #define WORDS_MAX 4u // of a FIFO
 
-static_assert(16u + BITS_A_BYTE * HAL_WIRE_SEND_MAX <= 32u * WORDS_MAX, "a frame fits the FIFO");
+static_assert(16u + HAL_WIRE_BYTE_BITS * HAL_WIRE_SEND_MAX <= 32u * WORDS_MAX,
+              "a frame fits the FIFO");
 static_assert(REPLY_BITS_A_BYTE * HAL_WIRE_REPLY_MAX <= 32u * WORDS_MAX, "so does a reply");
 
 // The exchange under way.
@@ -94,12 +93,12 @@ static void prepare(const hal_wire_t *wire) {
 
 // The numbers and the bits, as the program in tmc_uart.pio wants them.
 static void fill(const uint8_t *send, size_t size, size_t reply_size) {
-    uint64_t bits = (BITS_A_BYTE * size - 1) | reply_size << 8;
+    uint64_t bits = (HAL_WIRE_BYTE_BITS * size - 1) | reply_size << 8;
     unsigned count = 16;
     for (size_t i = 0; i < size; i++) {
-        uint64_t frame = (uint64_t)send[i] << 1 | 1u << (BITS_A_BYTE - 1);
+        uint64_t frame = (uint64_t)send[i] << 1 | 1u << (HAL_WIRE_BYTE_BITS - 1);
         bits |= frame << count;
-        count += BITS_A_BYTE;
+        count += HAL_WIRE_BYTE_BITS;
         if (count >= 32) {
             pio_sm_put(PIO, MACHINE, (uint32_t)bits);
             bits >>= 32;
@@ -113,15 +112,10 @@ static void fill(const uint8_t *send, size_t size, size_t reply_size) {
 
 // When what is left of the exchange may be over and when it has to be, from now on.
 static void set_times(uint64_t now_us, uint32_t idle_bits) {
-    uint32_t send_bits = idle_bits + TAKE_BITS + BITS_A_BYTE * exchange.send_size;
-    uint32_t reply_bits = BITS_A_BYTE * exchange.reply_size;
-    uint32_t ready_bits = send_bits;
-    if (reply_bits > 0) {
-        ready_bits += HAL_WIRE_REPLY_EARLIEST_BITS + reply_bits;
-    }
-    exchange.ready_us = now_us + bits_us(ready_bits);
-    exchange.give_up_us =
-        now_us + bits_us(send_bits + HAL_WIRE_REPLY_LATEST_BITS + reply_bits + BITS_A_BYTE);
+    uint32_t ready_bits = hal_wire_ready_bits(exchange.send_size, exchange.reply_size);
+    uint32_t give_up_bits = hal_wire_give_up_bits(exchange.send_size, exchange.reply_size);
+    exchange.ready_us = now_us + bits_us(idle_bits + ready_bits);
+    exchange.give_up_us = now_us + bits_us(idle_bits + give_up_bits);
 }
 
 void hal_wire_start(const hal_wire_t *wire, const uint8_t *send, size_t size, size_t reply_size) {
