@@ -202,7 +202,7 @@ def test_a_driver_that_is_gone_when_it_is_to_be_disarmed(tmp_path: Path) -> None
     ready = [line for line in ready if line != DRIVERS[1]]
     at = session(tmp_path, *ready, *lines, machine=machine)
     assert len(at.errors()) == 1
-    said = "Homing X failed: StallGuard is not switched off: No answer from address 0 on GP5"
+    said = "Homing X failed: StallGuard is still on: No answer from address 0 on GP5"
     assert at.errors()[0].startswith(said)
     assert at.number() == 0
 
@@ -302,6 +302,6 @@ def test_disarming_that_fails_behind_the_end_is_told(tmp_path: Path) -> None:
     machine = [*AXES, f"{X_DRIVER} fault=unplugged@850", Y_DRIVER]
     lines = ["TMC22xx MONITOR 0", "PAUSE 600", "STEPPER HOME RUN X", "PAUSE 300", "STEPPER ESTOP"]
     at = session(tmp_path, *READY, *lines, "PAUSE 3000", machine=machine)
-    told = [line for line in at.output.splitlines() if "StallGuard is not switched off" in line]
+    told = [line for line in at.output.splitlines() if "StallGuard is still on" in line]
     assert len(told) == 1
     assert "address 0 on GP5" in told[0]
