@@ -1,4 +1,4 @@
-"""Keys while a statement waits for a motor driver, at a terminal in virtual time."""
+"""Keys while a statement waits for a motor driver, at a terminal in virtual time; and no keys."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from test_host_port import Terminal
+from test_host_port import Terminal, read_until
 
 CTRL_C = b"\x03"
 SET_UP = b"TMC22xx GP21, 2209, 0, 800, 30, 16\r"
@@ -42,3 +42,13 @@ def test_the_driver_can_be_spoken_to_behind_it(terminal: Terminal) -> None:
         terminal.type(CTRL_C, b"> ")
         terminal.type(b"TMC22xx CURRENT 0, 800 : PRINT PEEK(TMC 0, GCONF);\r", b" 448")
         terminal.type(b"PRINT PEEK(TMC 0, CHOPCONF)\r", b"\r\n 335741267\r\n")
+
+
+def test_a_driver_is_missed_while_nobody_types(tmp_path: Path) -> None:
+    """In real time, as on a board: the prompt waits, and what the monitor finds is told."""
+    machine = tmp_path / "machine.txt"
+    machine.write_text("tmc2209 tx=GP21 address=0 fault=unplugged@300\n")
+    at = Terminal("--realtime", "--machine", str(machine))
+    at.type(SET_UP, b"\r\n> ")
+    read_until(at.master, b"does not answer any more")
+    at.close()

@@ -15,6 +15,7 @@
 #define BATCH_NS 1000000u        // longest run of ticks between two looks at the main loop
 #define PATIENCE_NS 50000000u    // wall time given to a peer that may be about to send
 #define CATCH_UP_NS 100000000u   // longest delay that real time makes up for
+#define SLEEP_MAX_NS 2000000000u // of real time: a board wakes as often, to feed its watchdog
 #define HOPELESS_IDLES_MAX 1000u // waits that nothing can end, before giving up
 
 static struct {
@@ -117,9 +118,9 @@ static void idle_realtime(uint64_t until_ns) {
         return;
     }
     uint64_t wake_ns = min_ns(until_ns, hal_tick_running() ? batch_end_ns() : event_ns);
+    wake_ns = min_ns(wake_ns, host_clock_now_ns() + SLEEP_MAX_NS);
     uint64_t now_ns = due_ns(host_clock_now_ns());
-    bool for_ever = wake_ns == HOST_CLOCK_NEVER;
-    host_console_wait(for_ever ? UINT64_MAX : wake_ns - min_ns(now_ns, wake_ns));
+    host_console_wait(wake_ns - min_ns(now_ns, wake_ns));
     host_clock_run(min_ns(due_ns(wake_ns), until_ns), true);
 }
 
