@@ -56,7 +56,7 @@ static err_t find_axis(unsigned axis, unsigned tx_gpio, unsigned *driver) {
     return tmc22xx_find_axis(axis, driver);
 }
 
-err_t tmc_find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {
+static err_t find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {
     unsigned choice = (unsigned)driver->integer;
     unsigned tx_gpio = (unsigned)wire->integer;
     return choice >= TMC_FIRST_AXIS ? find_axis(choice - TMC_FIRST_AXIS, tx_gpio, found)
@@ -65,7 +65,7 @@ err_t tmc_find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *fou
 
 err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found) {
     err_t err = tmc_await_turn(); // first: whoever closes a wire has his turn as well
-    return err != ERR_OK ? err : tmc_find(driver, wire, found);
+    return err != ERR_OK ? err : find(driver, wire, found);
 }
 
 err_t tmc_check_feed(unsigned axis, double feed) {
@@ -184,7 +184,7 @@ err_t tmc_wire(const basic_arg_t *args, size_t count) {
 err_t tmc_axis(const basic_arg_t *args, size_t count) {
     (void)count;
     unsigned driver;
-    err_t err = tmc_find(&args[0], &args[2], &driver);
+    err_t err = find(&args[0], &args[2], &driver);
     if (err == ERR_OK) {
         bool none = !args[1].given || args[1].integer == 0;
         tmc22xx_tie(driver, none ? TMC22XX_NO_AXIS : (unsigned)args[1].integer - 1);

@@ -36,14 +36,12 @@ err_t tmc_close(const basic_arg_t *args, size_t count);
 
 // ---- For the handlers of other files ------------------------------------------------------------
 
-// The driver that two arguments name: its address or its axis, and its wire if that is given.
-err_t tmc_find(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found);
-
 // Waits until a job of somebody else, the monitor for instance, is done. To be called right before
 // a job is begun. Error: Ctrl-C.
 err_t tmc_await_turn(void);
 
-// Both: waits for its turn, and finds the driver.
+// Waits for its turn in the same way, and finds the driver that two arguments name: its address or
+// its axis, and its wire if that is given.
 err_t tmc_begin(const basic_arg_t *driver, const basic_arg_t *wire, unsigned *found);
 
 // Waits for the end of the job that was begun with this result, and returns how it ended. Ctrl-C

@@ -89,6 +89,17 @@ def assert_gaps(rows: list[tuple[int, int]], groups: list[list[Byte]], baud: int
         assert 199_900 <= begin - end <= 245_000 + 2e9 / baud
 
 
+def assert_sent(board: Emulator, wanted: list[str], baud: int, vcd: Path) -> None:
+    """These frames and nothing else, each bit and each gap in its place."""
+    board.write_vcd(vcd)
+    groups = frames(decode(vcd, TX, baud), baud)
+    assert texts(groups) == wanted
+    rows = [(time, level) for time, _, level in board.edges([TX])]
+    for group in groups:
+        assert_bits(rows, group, baud)
+    assert_gaps(rows, groups, baud)
+
+
 @pytest.mark.parametrize("line", GOLDEN)
 def test_frames_of_a_line(board: Emulator, tmp_path: Path, line: str) -> None:
     baud = 115200
@@ -100,29 +111,15 @@ def test_frames_of_a_line(board: Emulator, tmp_path: Path, line: str) -> None:
         assert board.level(TX) == 1
     board.clear_edges()
     accepted(board, line)
-    vcd = tmp_path / "line.vcd"
-    board.write_vcd(vcd)
-    groups = frames(decode(vcd, TX, baud), baud)
-    assert texts(groups) == GOLDEN[line]
-    rows = [(time, level) for time, _, level in board.edges([TX])]
-    assert rows[0][1] == 0  # it was high
-    for group in groups:
-        assert_bits(rows, group, baud)
-    assert_gaps(rows, groups, baud)
+    assert board.edges([TX])[0][2] == 0  # it was high
+    assert_sent(board, GOLDEN[line], baud, tmp_path / "line.vcd")
 
 
 @pytest.mark.parametrize("baud", BAUDS)
 def test_frames_at_every_speed(board: Emulator, tmp_path: Path, baud: int) -> None:
     for line in [*first_lines(INITIAL, baud), INITIAL]:
         accepted(board, line)
-    vcd = tmp_path / "speed.vcd"
-    board.write_vcd(vcd)
-    groups = frames(decode(vcd, TX, baud), baud)
-    assert texts(groups) == GOLDEN[INITIAL]
-    rows = [(time, level) for time, _, level in board.edges([TX])]
-    for group in groups:
-        assert_bits(rows, group, baud)
-    assert_gaps(rows, groups, baud)
+    assert_sent(board, GOLDEN[INITIAL], baud, tmp_path / "speed.vcd")
 
 
 # The examples of the reference, in their order: five frames and five, twice five, one each.

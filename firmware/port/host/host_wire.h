@@ -1,5 +1,5 @@
 // The firmware's side of the serial wires, bit by bit at the pads. For host_clock.c and
-// host_pads.c.
+// host_pads.c. Context: any.
 #ifndef HOST_WIRE_H
 #define HOST_WIRE_H
 

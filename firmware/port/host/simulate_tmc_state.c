@@ -86,7 +86,8 @@ uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc, uint64_t now_ns) 
 
 // ---- Current ------------------------------------------------------------------------------------
 
-bool simulate_tmc_state_off(const simulate_tmc_t *tmc, uint64_t now_ns) {
+// The motor gets no current: switched off, too hot, shorted.
+static bool is_off(const simulate_tmc_t *tmc, uint64_t now_ns) {
     bool disabled = (hal_pins_read() & pins_mask(tmc->enable_gpio)) != 0;
     return disabled || tmc->too_hot ||
            simulate_faults_active(&tmc->faults, SIMULATE_CHIP_UNPOWERED, now_ns) ||
@@ -116,7 +117,7 @@ uint32_t simulate_tmc_state_current_scale(const simulate_tmc_t *tmc, uint64_t no
 }
 
 uint32_t simulate_tmc_current_ma(const simulate_tmc_t *tmc, uint64_t now_ns) {
-    if (simulate_tmc_state_off(tmc, now_ns)) {
+    if (is_off(tmc, now_ns)) {
         return 0;
     }
     bool sensitive = tmc_bits(tmc->registers[TMC_CHOPCONF], 17, 1) != 0;

@@ -1,5 +1,5 @@
 // What the chip finds out about itself and its motor: the values of the registers that no wire
-// writes. For simulate_tmc.c.
+// writes. For simulate_tmc.c. Context: any.
 #ifndef SIMULATE_TMC_STATE_H
 #define SIMULATE_TMC_STATE_H
 
@@ -60,9 +60,6 @@ bool simulate_tmc_state_stalled(const simulate_tmc_t *tmc, uint64_t now_ns);
 // When a stall that is shown ends without another pulse, because the speed is too low by then;
 // UINT64_MAX: nothing is shown.
 uint64_t simulate_tmc_state_calm_ns(const simulate_tmc_t *tmc, uint64_t now_ns);
-
-// The motor gets no current: switched off, too hot, shorted.
-bool simulate_tmc_state_off(const simulate_tmc_t *tmc, uint64_t now_ns);
 
 // Switches the motor off when it is too hot, and on when even the warning is over.
 void simulate_tmc_state_heat(simulate_tmc_t *tmc, uint64_t now_ns);
