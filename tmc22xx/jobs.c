@@ -23,6 +23,7 @@ static void turn_to(const driver_t *entry) {
     if (job.outcome.fault == ACCESS_OK) {
         job.outcome = (outcome_t){
             .tx_gpio = wires_get(entry->wire)->tx_gpio,
+            .rx_gpio = wires_get(entry->wire)->rx_gpio,
             .address = entry->address,
             .axis = entry->axis,
             .chip = entry->chip,

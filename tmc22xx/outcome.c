@@ -36,6 +36,11 @@ static err_t raise_silent(const outcome_t *outcome, const char *where) {
                          "%s; others on this wire answer: check its motor supply, MS1 and MS2",
                          where);
     }
+    if (outcome->rx_gpio != outcome->tx_gpio && !outcome->partly) {
+        return err_raise(ERR_TMC_SILENT,
+                         "%s: check motor supply, wire to PDN_UART, wire back to %s", where,
+                         pins_name(outcome->rx_gpio));
+    }
     if (outcome->is_being_set && !outcome->partly) {
         return err_raise(ERR_TMC_SILENT,
                          "%s: check motor supply, wire to PDN_UART, 1 k resistor "
@@ -71,7 +76,7 @@ err_t outcome_raise(const outcome_t *outcome) {
                          partly);
     case ACCESS_HELD_LOW:
         return err_raise(ERR_TMC_HELD_LOW, "%s is held low: is the driver powered?%s",
-                         pins_name(outcome->tx_gpio), partly);
+                         pins_name(outcome->rx_gpio), partly);
     case ACCESS_NOT_TAKEN:
         return err_raise(ERR_TMC_NOT_TAKEN, "%s%s", where, partly);
     case ACCESS_LOST:

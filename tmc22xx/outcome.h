@@ -19,7 +19,7 @@ enum {
 
 typedef struct {
     uint8_t fault; // access_fault_t or one of these; ACCESS_OK: it succeeded
-    uint8_t tx_gpio, address, axis;
+    uint8_t tx_gpio, rx_gpio, address, axis;
     uint8_t chip;      // that was expected, as in driver_t
     uint8_t found;     // VERSION; or, if nobody answers, addresses (bits) where a new driver does
     bool others;       // known drivers on this wire answer

@@ -38,8 +38,8 @@ err_t tmc22xx_close(uint8_t tx_gpio) {
     if (any) {
         return ERR_OK;
     }
-    return err_raise(ERR_TMC_NOT_INITIALIZED, "%s%s", "no wire",
-                     tx_gpio == PINS_NONE ? "" : " on this pin");
+    return err_raise(ERR_TMC_NOT_INITIALIZED, "no wire%s%s", tx_gpio == PINS_NONE ? "" : " on ",
+                     tx_gpio == PINS_NONE ? "" : pins_name(tx_gpio));
 }
 
 // ---- Setting up ---------------------------------------------------------------------------------

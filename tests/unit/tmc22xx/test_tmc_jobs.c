@@ -133,9 +133,26 @@ static void test_two_wires_and_two_addresses(void) {
     TEST_ASSERT_NULL(pins_owner(BENCH_WIRE));
     TEST_ASSERT_NULL(tmc22xx_driver(second));
     TEST_ASSERT_NOT_NULL(tmc22xx_driver(third));
-    bench_refused(tmc22xx_close(BENCH_WIRE), "TMC22xx not initialized (no wire on this pin)");
+    bench_refused(tmc22xx_close(BENCH_WIRE), "TMC22xx not initialized (no wire on GP16 (pin 21))");
     TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_close(PINS_NONE));
     bench_refused(tmc22xx_close(PINS_NONE), "TMC22xx not initialized (no wire)");
+}
+
+static line_fault_t all_held_low(size_t frame) {
+    (void)frame;
+    return LINE_HELD_LOW;
+}
+
+// The pin that listens is named where it matters.
+static void test_no_answer_at_a_pin_of_its_own(void) {
+    tmc22xx_settings_t usual = bench_settings(BENCH_WIRE, 0);
+    TEST_ASSERT_EQUAL(ERR_OK, tmc22xx_wire(BENCH_WIRE, 17, 115200));
+    bench_fails(tmc22xx_set_up(&usual), "No answer from address 0 on GP16 (pin 21): check motor "
+                                        "supply, wire to PDN_UART, wire back to GP17 (pin 22)");
+    line_expect(all_held_low);
+    bench_fails(tmc22xx_set_up(&usual),
+                "The line GP17 (pin 22) is held low: is the driver powered?");
+    line_expect(NULL);
 }
 
 static void test_a_wire_with_two_pins(void) {
@@ -315,6 +332,7 @@ int main(void) {
     RUN_TEST(test_what_cannot_be_asked_for);
     RUN_TEST(test_one_job_at_a_time);
     RUN_TEST(test_two_wires_and_two_addresses);
+    RUN_TEST(test_no_answer_at_a_pin_of_its_own);
     RUN_TEST(test_a_wire_with_two_pins);
     RUN_TEST(test_the_counters_of_a_driver);
     RUN_TEST(test_no_more_than_eight);
