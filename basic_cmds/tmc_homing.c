@@ -25,10 +25,11 @@ static bool finds_stalls(const tmc22xx_settings_t *settings, const tmc22xx_info_
     return settings->chip == 2209 && settings->stealth && info->sgthrs > 0;
 }
 
-static err_t raise(const tmc22xx_info_t *info, const char *needs) {
-    char name = STEPPER_AXIS_LETTERS[info->axis];
-    return err_raise(ERR_TMC_NOT_ARMED, "%c needs %s (a switch needs a latch feed: STEPPER HOME)",
-                     name, needs);
+static err_t raise(const tmc22xx_info_t *info, const char *needs, double feed) {
+    return err_raise(ERR_TMC_NOT_ARMED,
+                     "%c needs TMC22xx %s at %.6g mm/min (a switch needs a latch feed: STEPPER "
+                     "HOME)",
+                     STEPPER_AXIS_LETTERS[info->axis], needs, feed);
 }
 
 // The speed from which on the user wants stalls to be told is above that of homing.
@@ -48,10 +49,10 @@ static err_t check_driver(unsigned driver, const tmc22xx_info_t *info) {
     stepper_home_settings(axis, &home);
     uint32_t wanted = info->kept_tcoolthrs != 0 ? info->kept_tcoolthrs : info->tcoolthrs;
     if (!tmc_is_stealthy(driver, home.seek)) {
-        return raise(info, "StealthChop");
+        return raise(info, "STEALTH", home.seek);
     }
     if (info->sgthrs == 0) {
-        return raise(info, "TMC22xx SGTHRS");
+        return raise(info, "SGTHRS", home.seek);
     }
     bool too_slow = wanted != 0 && tmc_tstep(driver, home.seek) > wanted;
     return too_slow ? raise_too_slow(info, home.seek) : ERR_OK;

@@ -125,8 +125,14 @@ def test_blind_drivers_are_armed_as_well(tmp_path: Path) -> None:
     ("lines", "said"),
     [
         ([], "StallGuard of X needs TMC22xx SGTHRS"),
-        (["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,OFF"], "StallGuard of X needs StealthChop"),
-        (["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,,2400"], "StallGuard of X needs StealthChop"),
+        (
+            ["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,OFF"],
+            "StallGuard of X needs TMC22xx STEALTH at 3000 mm/min",
+        ),
+        (
+            ["TMC22xx SGTHRS X,120", "TMC22xx STEALTH X,,2400"],
+            "StallGuard of X needs TMC22xx STEALTH at 3000 mm/min",
+        ),
         (
             ["TMC22xx SGTHRS X,120", "TMC22xx STALL X,3600"],
             "StallGuard of X would not work at 3000",
