@@ -177,7 +177,8 @@ err_t tmc_wire(const basic_arg_t *args, size_t count) {
     (void)count;
     uint8_t tx_gpio = (uint8_t)args[0].integer;
     uint8_t rx_gpio = args[1].integer == PINS_NONE ? tx_gpio : (uint8_t)args[1].integer;
-    err_t err = tmc_await_turn();
+    err_t err = tmc_homing_await();
+    err = err != ERR_OK ? err : tmc_await_turn();
     return err != ERR_OK ? err : tmc22xx_wire(tx_gpio, rx_gpio, (uint32_t)args[2].integer);
 }
 

@@ -11,8 +11,8 @@
 // From now on homing arms the drivers that are tied to the axes it homes.
 void tmc_homing_start(void);
 
-// Before wires are closed: waits until what homing has armed is disarmed, or the drivers would stay
-// so. Errors: homing needs them just now; Ctrl-C.
+// Before wires change or are closed: waits until what homing has armed is disarmed, or the drivers
+// would stay so. Errors: homing needs them just now; Ctrl-C.
 err_t tmc_homing_await(void);
 
 // The same behind the end of all motion, whoever presses keys.

@@ -279,9 +279,10 @@ def test_ctrl_c_while_it_is_being_armed(tmp_path: Path) -> None:
     assert at.report.full_steps() == pytest.approx((END + 240) / 16, abs=2)
 
 
-def test_a_wire_is_not_closed_while_homing_needs_it(tmp_path: Path) -> None:
+@pytest.mark.parametrize("change", ["TMC22xx CLOSE", "TMC22xx WIRE GP5,GP21"])
+def test_a_wire_stays_while_homing_needs_it(change: str, tmp_path: Path) -> None:
     """Or the driver would stay armed."""
-    lines = ["STEPPER HOME RUN X", "PAUSE 200", "TMC22xx CLOSE", "PAUSE 3000", KNOWN]
+    lines = ["STEPPER HOME RUN X", "PAUSE 200", change, "PAUSE 3000", KNOWN]
     at = session(tmp_path, *READY, *lines)
     assert at.errors() == ["Homing is under way (STEPPER STOP or Ctrl-C ends it)"]
     assert [value > 0 for value in armed(at)] == [True, False]
