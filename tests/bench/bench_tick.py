@@ -14,6 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import drivers
 import measure
 import motion
 import ram
@@ -260,6 +261,30 @@ def parts_section(missed: list[str]) -> Section:
     return section
 
 
+def drivers_section(uf2: Path) -> Section:
+    section = Section("Drivers on a wire", ["", "baud", "taken", "cycles", "of the CPU"])
+    turn = drivers.turn_beside_drivers(uf2)
+    section.note = (
+        "A statement that speaks with a TMC2209, at rest: how long it waits, and what the "
+        "processor does for it meanwhile; the wire itself is the PIO's. An empty turn of FOR ... "
+        f"NEXT while a driver is there and is asked once a second how it is: {turn:.0f} cycles."
+    )
+    for name in drivers.ACTIONS:
+        for baud in drivers.BAUDS:
+            action = drivers.action(uf2, name, baud)
+            share = action.cycles / (action.taken_ms * MILLISECOND_CYCLES)
+            section.rows.append(
+                [
+                    name,
+                    whole(baud),
+                    f"{action.taken_ms:.2f} ms",
+                    whole(action.cycles),
+                    f"{share * 100:.1f} %",
+                ]
+            )
+    return section
+
+
 def size_text(uf2: Path) -> str:
     """The table of flash and RAM by part, as the audit prints it."""
     script = PROJECT / "tools" / "audit" / "size.py"
@@ -301,6 +326,7 @@ def main() -> int:
         goals_section(options.uf2, missed),
         statement_section(options.uf2),
         lateness_section(options.uf2),
+        drivers_section(options.uf2),
         motion_section(missed),
         parts_section(missed),
     ]
