@@ -46,11 +46,20 @@ static void print_statement_names(void) {
     console_fresh_line();
 }
 
+// Rows of one name may be in several tables.
+static bool is_first_of_name(unsigned index) {
+    const char *name = rows_function(index)->name;
+    unsigned first = 0;
+    while (strcmp(rows_function(first)->name, name) != 0) {
+        first++;
+    }
+    return first == index;
+}
+
 static void print_function_names(void) {
-    const basic_function_t *row;
-    for (unsigned i = 0; (row = rows_function(i)) != NULL; i++) {
-        if (i == 0 || strcmp(row->name, rows_function(i - 1)->name) != 0) {
-            print_word(row->name);
+    for (unsigned i = 0; rows_function(i) != NULL; i++) {
+        if (is_first_of_name(i)) {
+            print_word(rows_function(i)->name);
         }
     }
     for (size_t i = 0; i < functions_count; i++) {

@@ -32,3 +32,12 @@ def test_help_of_each_word(table: str) -> None:
     for word, text in zip(words, told, strict=True):
         assert "No help for" not in text, word
         assert word in text, (word, text)
+
+
+def test_each_word_is_listed_once() -> None:
+    """Whichever tables its rows are in."""
+    heads = ("Commands of the machine:", "Statements:", "Functions:")
+    for part in re.split("|".join(heads), "\n".join(answers("HELP\r")))[1:]:
+        words = re.findall(r"[A-Z][A-Z0-9.$ ]+(?=,|\n|$)", part.split("HELP name")[0])
+        assert len(words) > 3
+        assert sorted(words) == sorted(set(words))
