@@ -4,6 +4,8 @@
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc_homing.h"
 
+#define CURRENT_IS_FAR 1.2 // times what was asked for
+
 // Somebody has used drivers since RUN. Without any, the background of each statement costs nothing.
 static bool in_use;
 
@@ -106,10 +108,15 @@ err_t tmc_check_still(const char *what) {
 void tmc_warn_of_current(unsigned driver) {
     const tmc22xx_settings_t *settings = tmc22xx_driver(driver);
     tmc22xx_current_t current;
-    if (settings != NULL &&
-        tmc22xx_current(settings->run_ma, settings->r_sense_ohm, &current) == ERR_OK &&
-        current.limited) {
+    if (settings == NULL ||
+        tmc22xx_current(settings->run_ma, settings->r_sense_ohm, &current) != ERR_OK) {
+        return;
+    }
+    if (current.limited) {
         basic_printf("Warning: run_mA: %.6g is more than %.3g ohm allow, the motor gets %.0f mA\n",
+                     settings->run_ma, settings->r_sense_ohm, current.real_ma);
+    } else if (current.real_ma > CURRENT_IS_FAR * settings->run_ma) { // steps are coarse down there
+        basic_printf("Warning: run_mA: the nearest to %.6g with %.3g ohm is %.0f mA\n",
                      settings->run_ma, settings->r_sense_ohm, current.real_ma);
     }
 }

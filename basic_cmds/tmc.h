@@ -57,7 +57,7 @@ uint32_t tmc_tstep(unsigned driver, double feed);
 // The same driver is in StealthChop at this feed: StallGuard needs it.
 bool tmc_is_stealthy(unsigned driver, double feed);
 
-// Tells if the driver cannot give the current that was asked for.
+// Tells if the driver cannot give the current that was asked for, or only a good deal more.
 void tmc_warn_of_current(unsigned driver);
 
 // Tells if its axis needs another scale, since it had so many microsteps before; 0: not known.

@@ -42,6 +42,14 @@ def test_too_much_current_is_told(tmp_path: Path) -> None:
     )
 
 
+def test_a_current_much_above_the_wish_is_told(tmp_path: Path) -> None:
+    """The scale has steps of 31 mA at its low end."""
+    session = driven(tmp_path, SET_UP, "TMC22xx CURRENT 0, 20")
+    assert session.last == "Warning: run_mA: the nearest to 20 with 0.11 ohm is 31 mA"
+    session = driven(tmp_path, SET_UP, "TMC22xx CURRENT 0, 90")
+    assert session.last == ""
+
+
 def test_a_driver_has_the_name_of_its_axis(tmp_path: Path) -> None:
     """From AXIS on, until it is tied to none."""
     session = driven(
