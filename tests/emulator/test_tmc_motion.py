@@ -124,6 +124,10 @@ def test_host_comparison_sees_another_feed(quiet: Edges, tmp_path: Path) -> None
 PART = [*PLATE[:55], "G0 X0 Y0 Z1", "M5", *FIGURE]
 
 
+LATEST_NS = 2600
+"""An edge at a place where main has masked interrupts: the worst of all programs in the bench."""
+
+
 @dataclass(frozen=True)
 class Cut:
     """What a board did while it cut the part."""
@@ -167,14 +171,15 @@ def quiet_board(uf2: Path) -> Cut:
 def assert_same_ticks(quiet: Cut, other: Cut) -> None:
     """Each edge in the same tick, as long behind it as ever.
 
-    How long depends on the instruction that main is at; an idle main sleeps. The largest difference
-    between two programs without drivers is 0.7 us, too.
+    How long depends on the instruction that main is at. While main sets the alarm before it sleeps,
+    the SDK masks interrupts for about a microsecond; whether a tick comes just then is chance.
     """
     assert len(quiet.train) > 40_000
     difference = first_difference(quiet.train, other.train)
     assert difference is None, difference
     assert other.late_ns.min() >= quiet.late_ns.min() - 100
-    assert other.late_ns.max() <= quiet.late_ns.max() + 300
+    assert other.late_ns.max() <= LATEST_NS
+    assert np.percentile(other.late_ns, 99.9) <= np.percentile(quiet.late_ns, 99.9) + 100
     assert abs(other.late_ns.mean() - quiet.late_ns.mean()) < 20
 
 
