@@ -130,15 +130,17 @@ err_t control_estop(const basic_arg_t *args, size_t count) {
     return err;
 }
 
-// Ctrl-C asks for nothing else than what happens already.
+void control_wait(uint64_t until_us) {
+    if (!basic_wait(until_us)) {
+        hal_idle(until_us);
+        basic_cmds_background();
+    }
+}
+
 void control_await_stop(void) {
     stepper_stop();
     while (report_active() > 0) {
-        uint64_t until_us = hal_time_us() + STOP_LOOK_US;
-        if (!basic_wait(until_us)) {
-            hal_idle(until_us);
-            basic_cmds_background();
-        }
+        control_wait(hal_time_us() + STOP_LOOK_US);
     }
 }
 

@@ -13,6 +13,8 @@ err_t control_override(const basic_arg_t *args, size_t count);
 err_t control_jog(const basic_arg_t *args, size_t count);
 err_t control_jog_stop(const basic_arg_t *args, size_t count);
 err_t control_estop(const basic_arg_t *args, size_t count);
+// Waits as basic_wait() does, for what ends by itself: Ctrl-C asks for nothing else.
+void control_wait(uint64_t until_us);
 // Brings motion to a controlled stop and waits for it.
 void control_await_stop(void);
 err_t control_close(const basic_arg_t *args, size_t count);

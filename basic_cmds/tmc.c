@@ -1,6 +1,7 @@
 // TMC22xx: set-up of drivers, WIRE, AXIS, VERIFY, MONITOR, CLOSE. Context: main loop.
 #include "basic_cmds/tmc.h"
 
+#include "basic_cmds/control.h"
 #include "basic_cmds/report.h"
 #include "basic_cmds/tmc_homing.h"
 
@@ -13,29 +14,28 @@ static bool in_use;
 
 // A statement that Ctrl-C ends fails, so that no variable takes a value that nobody has read. The
 // language does not show the error.
-static err_t broken_off(void) {
-    return err_raise(ERR_TMC_BROKEN_OFF, NULL);
+static err_t await_job(void) {
+    while (tmc22xx_busy()) {
+        if (!basic_wait(tmc22xx_wake_us())) {
+            return err_raise(ERR_TMC_BROKEN_OFF, NULL);
+        }
+    }
+    return ERR_OK;
 }
 
 err_t tmc_await_turn(void) {
     in_use = true;
-    while (tmc22xx_busy()) {
-        if (!basic_wait(tmc22xx_wake_us())) {
-            return broken_off();
-        }
-    }
-    return ERR_OK;
+    return await_job();
 }
 
 err_t tmc_finish(err_t begun) {
     if (begun != ERR_OK) {
         return begun;
     }
-    while (tmc22xx_busy()) {
-        if (!basic_wait(tmc22xx_wake_us())) {
-            tmc22xx_give_up();
-            return broken_off();
-        }
+    err_t err = await_job();
+    if (err != ERR_OK) {
+        tmc22xx_give_up();
+        return err;
     }
     return tmc22xx_result();
 }
@@ -226,10 +226,7 @@ err_t tmc_close(const basic_arg_t *args, size_t count) {
 // first one of the new program for the rest of it.
 void tmc_new(void) {
     while (tmc22xx_busy()) {
-        if (!basic_wait(tmc22xx_wake_us())) { // Ctrl-C asks for nothing else
-            hal_idle(tmc22xx_wake_us());
-            tmc22xx_background();
-        }
+        control_wait(tmc22xx_wake_us());
     }
     if (in_use) {
         tmc22xx_close(PINS_NONE); // no error for us if there is no wire

@@ -3,6 +3,7 @@
 // TMC2209 in StealthChop with a threshold SGTHRS; all others find no stall. Context: main loop.
 #include "basic_cmds/tmc_homing.h"
 
+#include "basic_cmds/control.h"
 #include "basic_cmds/tmc.h"
 #include "stepper/stepper_homing.h"
 
@@ -180,12 +181,7 @@ err_t tmc_homing_await(void) {
 
 void tmc_homing_finish(void) {
     while (stepper_homing_disarms()) {
-        uint64_t until_us = hal_time_us() + LOOK_US;
-        if (!basic_wait(until_us)) { // Ctrl-C asks for nothing else
-            hal_idle(until_us);
-            tmc22xx_background();
-            stepper_background();
-        }
+        control_wait(hal_time_us() + LOOK_US);
     }
 }
 
