@@ -1,5 +1,7 @@
 """Homing and probing on the emulated board, with axes at its pins that press bouncing switches."""
 
+from shown import command
+
 from stepmite.emulator import Emulator
 
 SETUP = [
@@ -12,12 +14,6 @@ SETUP = [
     "STEPPER PROBE GP18",
     "STEPPER RUN",
 ]
-
-
-def command(board: Emulator, line: str, timeout_ms: float = 10_000) -> str:
-    """Return what the line printed, without its echo, blanks made one."""
-    shown = board.command(line, timeout_ms=timeout_ms)
-    return " ".join(shown.removeprefix(line).split())
 
 
 def start(board: Emulator) -> None:

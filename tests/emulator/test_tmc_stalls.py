@@ -1,6 +1,7 @@
 """Homing without switches on the emulated board: drivers at its pins, motors that slip."""
 
 import pytest
+from shown import command
 
 from stepmite.emulator import Emulator
 
@@ -19,12 +20,6 @@ SETUP = [
     "TMC22xx SGTHRS X,100",
     "TMC22xx SGTHRS Y,100",
 ]
-
-
-def command(board: Emulator, line: str, timeout_ms: float = 20_000) -> str:
-    """Return what the line printed, without its echo, blanks made one."""
-    shown = board.command(line, timeout_ms=timeout_ms)
-    return " ".join(shown.removeprefix(line).split())
 
 
 def start(board: Emulator) -> None:

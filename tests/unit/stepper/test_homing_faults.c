@@ -299,18 +299,24 @@ static void test_another_limit_switch_trips(void) {
     }
 }
 
+// Homing is under way, and X does not move any more half a second from now on.
+static void check_held(void) {
+    for (unsigned n = 0; n < 2000; n++) {
+        bench_wait_us(250);
+        stepper_background();
+    }
+    const uint64_t pulses = bench.motors[AXIS_X].pulses;
+    TEST_ASSERT_EQUAL(STEPPER_CYCLE_HOMING, stepper_cycle());
+    bench_wait_us(500000);
+    stepper_background();
+    TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
+}
+
 static void test_a_feed_hold_waits_and_goes_on(void) {
     for (unsigned phase = 0; phase < COUNT_OF_ARRAY(phases); phase++) {
         begin_in(phase);
         TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(true));
-        for (unsigned n = 0; n < 2000; n++) {
-            bench_wait_us(250);
-            stepper_background();
-        }
-        const uint64_t pulses = bench.motors[AXIS_X].pulses;
-        TEST_ASSERT_EQUAL(STEPPER_CYCLE_HOMING, stepper_cycle());
-        bench_wait_us(500000);
-        TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
+        check_held();
         TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(false));
         TEST_ASSERT_EQUAL_MESSAGE(ERR_OK, homing_bench_finish(20), err_message());
         TEST_ASSERT_EQUAL_INT64(PULL_OFF_X, bench.motors[AXIS_X].position_steps);
@@ -333,15 +339,7 @@ static void test_a_hold_outlasts_the_switch(void) {
         if (before_us <= 0) {
             TEST_ASSERT_EQUAL(ERR_OK, stepper_hold(true));
         }
-        for (unsigned n = 0; n < 2000; n++) {
-            bench_wait_us(250);
-            stepper_background();
-        }
-        const uint64_t pulses = bench.motors[AXIS_X].pulses;
-        TEST_ASSERT_EQUAL(STEPPER_CYCLE_HOMING, stepper_cycle());
-        bench_wait_us(500000);
-        stepper_background();
-        TEST_ASSERT_EQUAL_UINT64(pulses, bench.motors[AXIS_X].pulses);
+        check_held();
         uint32_t axes;
         TEST_ASSERT_EQUAL_STRING("approaching the switch", stepper_homing_phase(&axes));
         stepper_stop();

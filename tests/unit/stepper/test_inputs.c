@@ -164,6 +164,16 @@ static bool latched(int32_t steps[AXIS_COUNT]) {
     return yes;
 }
 
+// A move from where it stands is made in full.
+static void check_moves_on(void) {
+    const int64_t x = bench.motors[AXIS_X].position_steps;
+    double here[AXIS_COUNT];
+    stepper_target(here);
+    bench_move(here[0] + 1, here[1], here[2], here[3], 6000);
+    bench_finish(1);
+    TEST_ASSERT_EQUAL_INT64(x + 80, bench.motors[AXIS_X].position_steps);
+}
+
 static void check_latch_at(unsigned tick, uint32_t samples) {
     bench_start();
     hal_pin_input(PROBE_GPIO, HAL_PULL_UP);
@@ -192,12 +202,7 @@ static void check_latch_at(unsigned tick, uint32_t samples) {
     TEST_ASSERT_EQUAL_INT32_ARRAY(expected, steps, AXIS_COUNT);
     bench_check_positions();
     TEST_ASSERT_EQUAL_UINT32(STEPPER_BLOCKS_DEFAULT, stepper_blocks_free());
-    const int64_t x = bench.motors[AXIS_X].position_steps;
-    double here[AXIS_COUNT];
-    stepper_target(here);
-    bench_move(here[0] + 1, here[1], here[2], here[3], 6000);
-    bench_finish(1);
-    TEST_ASSERT_EQUAL_INT64(x + 80, bench.motors[AXIS_X].position_steps);
+    check_moves_on();
     hal_governor_lock();
     step_isr_latch_disarm();
     hal_governor_unlock();
@@ -263,12 +268,7 @@ static void check_standing(void) {
     TEST_ASSERT_TRUE(hal_tick_running()); // E-STOP is watched
     TEST_ASSERT_EQUAL_UINT32(STEPPER_BLOCKS_DEFAULT, stepper_blocks_free());
     bench_check_positions();
-    const int64_t x = bench.motors[AXIS_X].position_steps;
-    double here[AXIS_COUNT];
-    stepper_target(here);
-    bench_move(here[0] + 1, here[1], here[2], here[3], 6000);
-    bench_finish(1);
-    TEST_ASSERT_EQUAL_INT64(x + 80, bench.motors[AXIS_X].position_steps);
+    check_moves_on();
     bench_check_positions();
 }
 
